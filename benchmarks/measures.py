@@ -2,7 +2,7 @@
 
     PYTHONPATH=build/release/plugins/python python3 benchmarks/measures.py [--tolerances 0.2,0.05] scenes/hourglass.json …
 
-Prints a row for each scene and tolerance: for the largest phase, the width of the certain interval, and the width of
+Prints a row for each scene and tolerance: for the largest phase, the width of the guaranteed interval, and the width of
 the interval that contains the volume with a probability of 95 % if the share of random points is all that is known,
 both as fractions of the volume; and the ratio of the second to the first.
 """
@@ -50,7 +50,7 @@ def main():
     parser.add_argument("scenes", nargs="+")
     chosen = parser.parse_args()
     tolerances = [float(t) for t in chosen.tolerances.split(",")]
-    print("| scene | phase | seconds | certain interval | random points, 95 % | ratio |\n|---|---|---|---|---|---|")
+    print("| scene | phase | seconds | guaranteed interval | random points, 95 % | ratio |\n|---|---|---|---|---|---|")
     for file in chosen.scenes:
         for name, seconds, certain, random in rows(file, tolerances):
             print(f"| {file} | {name} | {seconds:.2f} | {certain:.1e} | {random:.1e} | {random / certain:.2f} |", flush=True)

@@ -16,7 +16,7 @@ ROWS = [
     ("", "the picture alone"),
     ("depth,position,normal,albedo", ""),
     ("depth_behind,position_behind,normal_behind,albedo_behind", ""),
-    ("phase_left,phase_entered,object,instance", ""),
+    ("phase_from,phase_to,object,instance", ""),
     ("length", " (eleven phases)"),
     ("direct,indirect", ""),
     ("lights", " (one group)"),

@@ -1,4 +1,4 @@
-"""Volumes of solids in closed form by three methods: certain intervals, random points, and meshing.
+"""Volumes of solids in closed form by three methods: guaranteed intervals, random points, and meshing.
 
     PYTHONPATH=build/release/plugins/python python3 benchmarks/volumes.py
 
@@ -45,7 +45,7 @@ def meshed(obj, seconds):
 
 
 def main():
-    print("| solid | seconds | certain interval | its error | random points, 95 % | mesh, error |\n|---|---|---|---|---|---|")
+    print("| solid | seconds | guaranteed interval | its error | random points, 95 % | mesh, error |\n|---|---|---|---|---|---|")
     for name, obj, volume in solids():
         low, high = obj.bounds
         obj.label(np.zeros((1, 3), dtype=np.float32))  # records the program

@@ -65,7 +65,7 @@ Checksum trace_whole(const InterfaceTracer& tracer, const Rays& rays) {
     return trace_many(rays, 1, [&](const Ray& ray) -> std::optional<float> {
         const auto hit = tracer.first_crossing(ray.origin, ray.direction, 0, 1e6f, vacuum, workspace);
         if (!hit) return std::nullopt;
-        return hit->t_in;
+        return hit->t_from;
     });
 }
 
@@ -121,7 +121,7 @@ Report carve(const Settings& settings) {
                 if (far < near) return std::nullopt;
                 const auto crossing = cells.intersect(ray);
                 if (!crossing) return std::nullopt;
-                return crossing->t_in;
+                return crossing->t_from;
             });
         };
         const Turns through_cells = in_turn({{"alone", [&] { return cells.trace(rays, 1); }}, {"tested", tested}},

@@ -73,10 +73,10 @@ Fingerprint cells_of(const InterfaceCells& cells) {
 void add(Fingerprint& found, const std::optional<Crossing>& crossing) {
     found.add(crossing.has_value());
     if (!crossing) return;
-    found.add(crossing->t_in);
-    found.add(crossing->t_out);
-    found.add(crossing->p_in);
-    found.add(crossing->p_out);
+    found.add(crossing->t_from);
+    found.add(crossing->t_to);
+    found.add(crossing->p_from);
+    found.add(crossing->p_to);
     found.add(crossing->from.index);
     found.add(crossing->to.index);
 }
@@ -95,7 +95,7 @@ Fingerprint crossings(const FieldScene& scene, Rays rays) {
             found.add(hit->cell);
             found.add(hit->normal.unit);
             found.add(hit->normal.gradient);
-            ray.origin = hit->crossing.p_out;
+            ray.origin = hit->crossing.p_to;
             ray.carried = hit->crossing.to;
             ray.cell = hit->cell;
             ray.from = hit->crossing.from;

@@ -73,9 +73,9 @@ Report march(const Settings&) {
     while (const auto hit = field.intersect(at)) {
         batches += field.counters(std::span(&at, 1)).batches;
         ++by_cells.crossings;
-        from += static_cast<double>(hit->t_out);
+        from += static_cast<double>(hit->t_to);
         crossings.row({from, double(hit->from.index), double(hit->to.index)});
-        at.origin = hit->p_out;
+        at.origin = hit->p_to;
         at.carried = hit->to;
     }
     batches += field.counters(std::span(&at, 1)).batches;

@@ -108,7 +108,7 @@ Report mesh(const Settings& settings) {
             return trace_many(rays, settings.threads, [&](const Ray& ray) -> std::optional<float> {
                 const auto hit = field->intersect_with_normal(ray);
                 if (!hit) return std::nullopt;
-                return hit->crossing.t_in + glm::dot(hit->normal.unit, ray.direction);
+                return hit->crossing.t_from + glm::dot(hit->normal.unit, ray.direction);
             });
         };
         const auto contest = [&](const Rays& of_field, const Rays& of_mesh) {

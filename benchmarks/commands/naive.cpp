@@ -46,7 +46,7 @@ Disagreement compare(const FieldScene& cells, const NaiveScene& naive, const Ray
         const auto a = cells.intersect(ray);
         const auto b = naive.intersect(ray);
         d.hits += a ? 1 : 0;
-        const float apart = a && b ? std::abs(a->t_in - b->distance) : 0;
+        const float apart = a && b ? std::abs(a->t_from - b->distance) : 0;
         d.farthest = std::max(d.farthest, apart);
         d.other += a.has_value() != b.has_value() || (a && a->to != b->to) || apart > tolerance ? 1 : 0;
     }

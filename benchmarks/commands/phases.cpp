@@ -54,7 +54,7 @@ Report phases(const Settings& settings) {
             for (const auto& other : cells) {
                 const auto hit = other->intersect(ray);
                 same = same && hit.has_value() == first.has_value() &&
-                       (!hit || std::abs(hit->t_in - first->t_in) < tolerance);
+                       (!hit || std::abs(hit->t_from - first->t_from) < tolerance);
             }
             different += same ? 0 : 1;
         }

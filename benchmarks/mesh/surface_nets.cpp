@@ -41,8 +41,8 @@ std::vector<float> crossings_along(const FieldScene& scene, Ray ray, float step)
     std::vector<float> found;
     const glm::vec3 start = ray.origin;
     while (const auto crossing = scene.intersect(ray)) {
-        found.push_back(0.5f * glm::dot(crossing->p_in + crossing->p_out - 2.f * start, ray.direction) / step);
-        ray.origin = crossing->p_out;
+        found.push_back(0.5f * glm::dot(crossing->p_from + crossing->p_to - 2.f * start, ray.direction) / step);
+        ray.origin = crossing->p_to;
         ray.carried = crossing->to;
         if (found.size() > 100'000) throw std::runtime_error("a line of the grid runs along the surface");
     }

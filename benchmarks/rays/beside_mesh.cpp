@@ -16,7 +16,7 @@ Agreement compare(const FieldScene& field, const MeshScene& mesh, const Rays& ra
         a.either += f || m ? 1 : 0;
         if (!f || !m) continue;
         ++a.both;
-        const double d = std::abs(static_cast<double>(f->t_in) - static_cast<double>(m->distance));
+        const double d = std::abs(static_cast<double>(f->t_from) - static_cast<double>(m->distance));
         a.difference += d;
         a.largest = std::max(a.largest, d);
     }
@@ -32,7 +32,7 @@ SurfaceRays leaving(const FieldScene& field, const MeshScene& mesh, const Rays& 
         const auto f = field.intersect_with_normal(ray);
         const auto m = mesh.intersect(ray);
         // Past an edge the two may see different parts of the object: those rays would not be comparable.
-        if (!f || !m || std::abs(f->crossing.t_in - m->distance) > 300 * hair) continue;
+        if (!f || !m || std::abs(f->crossing.t_from - m->distance) > 300 * hair) continue;
         glm::vec3 flat = glm::normalize(m->normal);
         if (glm::dot(flat, ray.direction) > 0) flat = -flat;
         starts.of_field.push_back(back_from(*f));

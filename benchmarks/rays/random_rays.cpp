@@ -15,9 +15,9 @@ Phase phase_at(const FieldScene& scene, const glm::vec3& p) {
     Ray ray{{start, p.y, p.z}, {1, 0, 0}, vacuum};
     while (true) {
         const auto crossing = scene.intersect(ray);
-        if (!crossing || crossing->p_in.x > p.x) return ray.carried;
-        if (crossing->p_out.x + scene.cells().resolution() > p.x) return vacuum;
-        ray.origin = crossing->p_out;
+        if (!crossing || crossing->p_from.x > p.x) return ray.carried;
+        if (crossing->p_to.x + scene.cells().resolution() > p.x) return vacuum;
+        ray.origin = crossing->p_to;
         ray.carried = crossing->to;
     }
 }
@@ -43,7 +43,7 @@ Rays rays_from_inside(const FieldScene& scene, std::size_t count, std::uint64_t 
 
 Ray back_from(const FieldScene::HitWithNormal& hit) {
     const Crossing& c = hit.crossing;
-    return {c.p_in, -hit.normal.unit, c.from, hit.cell, c.from, hit.normal.gradient};
+    return {c.p_from, -hit.normal.unit, c.from, hit.cell, c.from, hit.normal.gradient};
 }
 
 Rays rays_from_hits(const FieldScene& scene, std::span<const Ray> camera, std::uint64_t seed) {

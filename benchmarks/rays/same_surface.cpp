@@ -35,8 +35,8 @@ Sameness same_surface(const FieldScene& a, const FieldScene& b, const Rays& came
         const auto hit = a.intersect(ray), other = b.intersect(ray);
         ++found.rays;
         found.hits += hit ? 1 : 0;
-        if (hit) surface.push_back(hit->p_in);
-        if (hit.has_value() != other.has_value() || (hit && std::abs(hit->t_in - other->t_in) > tolerance))
+        if (hit) surface.push_back(hit->p_from);
+        if (hit.has_value() != other.has_value() || (hit && std::abs(hit->t_from - other->t_from) > tolerance))
             ++found.rays_apart;
     }
     Random random(seed);

@@ -42,7 +42,7 @@ std::optional<FieldScene::Surface> FieldScene::surface(const Ray& ray) const {
     if (hit.hit.geomID == object_id) {
         const Crossing& c = query.crossing;
         const CrossingNormal normal = cells_->normal(hit.hit.primID, c, ray.direction);
-        return Surface{c.t_in, c.p_in, -normal.unit, hit.hit.primID, c.from, normal.gradient};
+        return Surface{c.t_from, c.p_from, -normal.unit, hit.hit.primID, c.from, normal.gradient};
     }
     const float up = ray.direction.z < 0 ? 1.f : -1.f;
     const glm::vec3 point = ray.origin + hit.ray.tfar * ray.direction;

@@ -46,7 +46,7 @@ class FieldScene {
         return trace_many(rays, threads, [this](const Ray& ray) -> std::optional<float> {
             const auto crossing = intersect(ray);
             if (!crossing) return std::nullopt;
-            return crossing->t_in;
+            return crossing->t_from;
         });
     }
     TraceCounters counters(std::span<const Ray> rays) const;

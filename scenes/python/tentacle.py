@@ -11,7 +11,7 @@ x, z = (np.cumsum(np.gradient(s) * f(angle)) for f in (np.cos, np.sin))
 axis = np.stack([x, -1.16 * np.exp(-((radius / 0.2245) ** 2)), z - 0.4], axis=1)
 
 
-def around(length, turn):  # Of the axis at a length: point, radius, direction, and a direction away from it.
+def around(length, turn):  # Point, radius and direction of the axis at an arc length, and a direction away from it.
     point, along = (np.array([np.interp(length, s, v) for v in a.T]) for a in (axis, np.gradient(axis, axis=0)))
     inward = np.cross((0, 1, 0), along := along / np.linalg.norm(along))
     inward /= np.linalg.norm(inward)
@@ -43,7 +43,7 @@ for i, length in enumerate(10.45 * (1 - np.geomspace(1, 0.016, 2300))):
         sizes.append((0.01 + 0.06 * r) * 2 ** np.sin(7 * i))
 tentacle = bumps(pt.sphere(1).instances(places, scales=sizes), pt.union(suckers)).under(arm)
 
-# Each phase is cut by a shape of its own, the skin highest, so that one sees every layer from outside and in section.
+# Each phase is cut by its own shape, the skin farthest up the arm, so that each layer shows its outside and section.
 for phases, y, height, tilt in (((skin, bumps), -0.86, 4.7, -18), (fat, -0.98, 3.5, -14), (flesh, -1.1, 2.1, -10)):
     knife = pt.rounded_box((4, 2, height), 0.03).rotate(tilt, axis=(0, 1, 0)).translate((-0.2, y, 0))
     tentacle = tentacle.subtract_shape(knife, phases=phases)

@@ -103,8 +103,8 @@ TEST_CASE("every interface is inside a cell") {
         Phase phase = tracer.label(p, w);
         while (const auto c = tracer.first_crossing(p, d, 0, 1e6f, phase, w)) {
             ++found;
-            CHECK(!cells_at(cells, c->p_in).empty());
-            p = c->p_out;
+            CHECK(!cells_at(cells, c->p_from).empty());
+            p = c->p_to;
             phase = c->to;
         }
     }

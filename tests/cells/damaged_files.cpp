@@ -24,9 +24,9 @@ std::optional<Crossing> nearest(const InterfaceCells& cells, const glm::vec3& fr
     std::optional<Crossing> hit;
     TraceCounters counters;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        const auto one =
-            cells.first_crossing(c, TracedRay(from, direction), 0, hit ? hit->t_in : 10.f, std::nullopt, {}, counters);
-        if (one && (!hit || one->t_in < hit->t_in)) hit = one;
+        const auto one = cells.first_crossing(c, TracedRay(from, direction), 0, hit ? hit->t_from : 10.f, std::nullopt,
+                                              {}, counters);
+        if (one && (!hit || one->t_from < hit->t_from)) hit = one;
     }
     return hit;
 }
@@ -142,7 +142,8 @@ namespace {
 // One cell whose program is one step with the data at `data`.
 std::string unsound(const Program& program, std::uint32_t op, std::uint32_t data) {
     CellTables t;
-    t.routines.shapes = {{.first_step = 0, .steps = 1, .leading = 0, .first_output = 0, .outputs = 1, .slots = 4}};
+    t.routines.shapes = {
+        {.first_step = 0, .steps = 1, .first_component_steps = 0, .first_output = 0, .outputs = 1, .slots = 4}};
     t.routines.steps = {{.op = op, .to = 3, .a = 0, .b = 0}};
     t.routines.outputs = {{.slot = 3, .phase = 1, .sign = 1}};
     t.routines.data = {data};

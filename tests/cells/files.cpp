@@ -40,7 +40,7 @@ int differing_cells(const InterfaceCells& a, const InterfaceCells& b) {
             if (x.has_value() != y.has_value()) ++differing;
             if (!x || !y) continue;
             ++crossings;
-            if (x->t_in != y->t_in || x->t_out != y->t_out || x->p_in != y->p_in || x->from != y->from ||
+            if (x->t_from != y->t_from || x->t_to != y->t_to || x->p_from != y->p_from || x->from != y->from ||
                 x->to != y->to)
                 ++differing;
             if (!are_equal(a.normal(c, *x, d), b.normal(c, *y, d))) ++differing;

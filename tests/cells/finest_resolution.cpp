@@ -57,7 +57,7 @@ TEST_CASE("a search ends at any resolution") {
             most = std::max<std::uint64_t>(most, counters.batches);
             if (resolution > 0.01f) continue;  // nothing need be seen
             REQUIRE(hit.has_value());
-            REQUIRE(std::abs(hit->t_in - (5 - top)) < 4 * resolution + 2e-6f);
+            REQUIRE(std::abs(hit->t_from - (5 - top)) < 4 * resolution + 2e-6f);
         }
     }
     CHECK(most < 5000);

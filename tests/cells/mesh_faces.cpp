@@ -113,7 +113,7 @@ void follow(const Phased& object, const CellsAlongRay& cells, const Line& line, 
             return;
         }
         const auto next = nearest_crossing(cells, p, line.direction, phase, w, counted.counters);
-        const double until = next ? glm::dot(glm::dvec3(next->p_in) - o, d) : since + 4;
+        const double until = next ? glm::dot(glm::dvec3(next->p_from) - o, d) : since + 4;
         for (int i = 0; i < 12; ++i) {
             const double t = since + 4 * resolution + (until - since - 8 * resolution) * (i + 0.5) / 12;
             if (!(t > since && t < until)) continue;
@@ -125,8 +125,8 @@ void follow(const Phased& object, const CellsAlongRay& cells, const Line& line, 
         }
         if (!next) return;
         ++counted.crossings;
-        since = glm::dot(glm::dvec3(next->p_out) - o, d);
-        p = next->p_out;
+        since = glm::dot(glm::dvec3(next->p_to) - o, d);
+        p = next->p_to;
         phase = next->to;
     }
 }
@@ -207,11 +207,11 @@ TEST_CASE("where a ray is not close to an edge, it meets the triangles that it m
                 const auto found = nearest_crossing(boxes, p, line.direction, phase, w, counters);
                 REQUIRE(found);
                 ++crossings;
-                const glm::dvec3 at = 0.5 * (glm::dvec3(found->p_in) + glm::dvec3(found->p_out));
+                const glm::dvec3 at = 0.5 * (glm::dvec3(found->p_from) + glm::dvec3(found->p_to));
                 const double away = std::abs(glm::dot(at - glm::dvec3(line.origin), glm::dvec3(line.direction)) - t);
                 farthest = std::max(farthest, away / resolution);
                 REQUIRE(found->from == phase);
-                p = found->p_out;
+                p = found->p_to;
                 phase = found->to;
             }
             CHECK_FALSE(nearest_crossing(boxes, p, line.direction, phase, w, counters));
@@ -244,7 +244,7 @@ TEST_CASE("rays that leave a mesh's surface find what marching through the whole
             const glm::vec3 normal = tracer.normal(*hit, ray.direction);
             glm::vec3 away = rng.direction();
             if ((glm::dot(away, normal) < 0) != is_near) away = -away;
-            compare_ray(object, boxes, tracer, {}, {is_near ? hit->p_in : hit->p_out, away}, w, all);
+            compare_ray(object, boxes, tracer, {}, {is_near ? hit->p_from : hit->p_to, away}, w, all);
         }
     }
     MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.counters.batches, " batches");
@@ -267,7 +267,7 @@ TEST_CASE("a normal is the triangle's, with any map to the object's space") {
             for (const auto& [enter, leave, c] : boxes.along(ray.origin, ray.direction)) {
                 TraceCounters unused;
                 const auto hit = cells.first_crossing(c, ray.origin, ray.direction, 0, 1e6f, vacuum, w, unused);
-                if (!hit || hit->from != vacuum || hit->t_out == hit->t_in) continue;
+                if (!hit || hit->from != vacuum || hit->t_to == hit->t_from) continue;
                 const CrossingNormal normal = cells.normal(c, *hit, ray.direction);
                 CHECK(glm::dot(normal.unit, ray.direction) > 0);
                 // By differences in double on the near side, from where the nearest piece is the face, unless the
@@ -277,8 +277,8 @@ TEST_CASE("a normal is the triangle's, with any map to the object's space") {
                 for (int k = 0; k < 3; ++k) {
                     glm::dvec3 side(0);
                     side[k] = step;
-                    gradient[k] = tests::values(object, glm::dvec3(hit->p_in) + side)[0] -
-                                  tests::values(object, glm::dvec3(hit->p_in) - side)[0];
+                    gradient[k] = tests::values(object, glm::dvec3(hit->p_from) + side)[0] -
+                                  tests::values(object, glm::dvec3(hit->p_from) - side)[0];
                 }
                 ++normals;
                 worst = std::max(
@@ -310,8 +310,8 @@ TEST_CASE("a ray that carries a phase in which it is not changes to its own at t
             REQUIRE(crossing);
             CHECK(crossing->from == wrong);
             CHECK(crossing->to == here);
-            CHECK(crossing->t_in == 0);
-            CHECK(crossing->t_out == 0);
+            CHECK(crossing->t_from == 0);
+            CHECK(crossing->t_to == 0);
         }
         const auto right = first(p, side * normal, here);
         CHECK(right.has_value() == (side < 0));
@@ -322,14 +322,14 @@ TEST_CASE("a ray that carries a phase in which it is not changes to its own at t
     const auto at_start = first(above, along, Phase{1});
     REQUIRE(at_start);
     CHECK(at_start->to == vacuum);
-    CHECK(at_start->t_out == 0);
+    CHECK(at_start->t_to == 0);
     // From afar: where the ray enters the first cell, before the face that it meets there.
     const auto at_entry = first({0.2f, 0.1f, 5}, {0, 0, -1}, Phase{1});
     REQUIRE(at_entry);
     CHECK(at_entry->from == Phase{1});
     CHECK(at_entry->to == vacuum);
-    CHECK(at_entry->t_in == at_entry->t_out);
-    CHECK(at_entry->t_in < 4.3f);
+    CHECK(at_entry->t_from == at_entry->t_to);
+    CHECK(at_entry->t_from < 4.3f);
 }
 
 TEST_CASE("every instruction set meets the same faces, to the last bit") {
@@ -348,8 +348,8 @@ TEST_CASE("every instruction set meets the same faces, to the last bit") {
                                                       std::nullopt, counters);
                 if (!hit) continue;
                 const glm::vec3 n = cells.normal(c, *hit, line.direction).unit;
-                found.insert(found.end(),
-                             {static_cast<float>(c), hit->t_in, hit->t_out, hit->p_in.x, hit->p_out.z, n.x, n.y, n.z});
+                found.insert(found.end(), {static_cast<float>(c), hit->t_from, hit->t_to, hit->p_from.x, hit->p_to.z,
+                                           n.x, n.y, n.z});
             }
         return found;
     };

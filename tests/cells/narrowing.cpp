@@ -47,8 +47,8 @@ TEST_CASE("a bracket that follows from the curvature of the distance holds the c
         const glm::vec3 direction = glm::normalize(to - from);
         std::optional<Crossing> hit;
         for (std::size_t c = 0; c < cells.size(); ++c) {
-            const auto one = cells.first_crossing(c, from, direction, 0, hit ? hit->t_in : 4.f, carried, w, counters);
-            if (one && (!hit || one->t_in < hit->t_in)) hit = one;
+            const auto one = cells.first_crossing(c, from, direction, 0, hit ? hit->t_from : 4.f, carried, w, counters);
+            if (one && (!hit || one->t_from < hit->t_from)) hit = one;
         }
         if (!hit) return;
         // Of |o + t·d| = r, in double.
@@ -59,8 +59,8 @@ TEST_CASE("a bracket that follows from the curvature of the distance holds the c
         const double rounding = 4e-7 * radius / std::sqrt(std::max(b * b / a - c, 1e-3));
         ++crossings;
         outside +=
-            root < static_cast<double>(hit->t_in) - rounding || root > static_cast<double>(hit->t_out) + rounding;
-        wide += hit->t_out - hit->t_in > cells.resolution() * 1.01f + 1e-6f;
+            root < static_cast<double>(hit->t_from) - rounding || root > static_cast<double>(hit->t_to) + rounding;
+        wide += hit->t_to - hit->t_from > cells.resolution() * 1.01f + 1e-6f;
     };
     for (int i = 0; i < 20'000; ++i) {
         const glm::vec3 from = 3.f * rng.direction(), inside = 0.7f * rng.direction(), to = 0.99f * rng.direction();

@@ -21,13 +21,13 @@ namespace {
 template <class CellBuffer>
 void each_cell(const InterfaceCells& cells, const Crossing& c, const glm::vec3& d, CellBuffer&& found) {
     const float size = cells.bounds().diagonal();
-    const glm::vec3 o = c.p_in - 0.01f * size * d;
+    const glm::vec3 o = c.p_from - 0.01f * size * d;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-        if (!cells.bounds(cell).contains(c.p_in) || !cells.bounds(cell).contains(c.p_out)) continue;
+        if (!cells.bounds(cell).contains(c.p_from) || !cells.bounds(cell).contains(c.p_to)) continue;
         TraceCounters unused;
         const auto again = cells.first_crossing(cell, o, d, 0, 0.02f * size, {}, Evaluator::thread_workspace(), unused);
         if (again && again->from == c.from && again->to == c.to &&
-            glm::length(again->p_in - c.p_in) < 3 * cells.resolution())
+            glm::length(again->p_from - c.p_from) < 3 * cells.resolution())
             found(cell, *again);
     }
 }

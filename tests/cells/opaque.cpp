@@ -45,7 +45,7 @@ Cost cost_of(const Phased& object, PhaseSet opaque, BuildQuality quality) {
         for (std::size_t c = 0; c < cells.size(); ++c) {
             const auto hit = cells.first_crossing(c, from, glm::normalize(to - from), 0, end, vacuum, w, cost.counters);
             if (!hit) continue;
-            end = hit->t_in;
+            end = hit->t_from;
             is_hit = true;
         }
         cost.hits += is_hit;

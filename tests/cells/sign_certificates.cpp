@@ -208,15 +208,15 @@ TEST_CASE("near edges rays take few batches, and meet what rays meet of the whol
             const auto expected = tracer.first_crossing(p, d, 0, 1e6f, phase, w);
             std::optional<Crossing> nearest;
             for (std::size_t c = 0; c < cells.size(); ++c) {
-                const auto hit = cells.first_crossing(c, p, d, 0, nearest ? nearest->t_in : 1e6f, phase, w, all);
-                if (hit && (!nearest || hit->t_in < nearest->t_in)) nearest = hit;
+                const auto hit = cells.first_crossing(c, p, d, 0, nearest ? nearest->t_from : 1e6f, phase, w, all);
+                if (hit && (!nearest || hit->t_from < nearest->t_from)) nearest = hit;
             }
             ++rays;
             crossings += expected.has_value();
             // One of them may have passed a hair that the other one saw.
             Compared by_hairs;
             if (expected.has_value() != nearest.has_value() ||
-                (expected && std::abs(expected->t_in - nearest->t_in) > 4 * tracer.resolution()))
+                (expected && std::abs(expected->t_from - nearest->t_from) > 4 * tracer.resolution()))
                 compare_ray(object, boxes, tracer, {}, {p, d}, w, by_hairs);
             different += by_hairs.different;
         }

@@ -141,7 +141,8 @@ TEST_CASE("what is no solid is left out, by its name") {
     g.node("Window", g.mesh(box({10, 0, 0}, {11, 1, 1}), pane));
     const Outcome o = shell.import_well(g);
     CHECK(has(o.err, "warning: in.glb: mesh: \"Sheet\" is a sheet that encloses nothing"));
-    CHECK(has(o.err, "\"Tray\" is not closed: 4 edges have triangles on one side only; its holes are closed"));
+    CHECK(
+        has(o.err, "\"Tray\" is not closed: 4 edges belong to an odd number of triangles; its holes have been filled"));
     CHECK(has(o.err,
               "clear materials without volume (KHR_materials_volume) become panes of \"thin_glass\"; use --solid if "
               "their objects are closed and solid"));

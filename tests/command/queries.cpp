@@ -326,6 +326,10 @@ TEST_CASE("nodes prints the parts of the reference that are named") {
     const std::string cameras = shell.run({"nodes", "cameras"}).out;
     CHECK(cameras.find("Cameras") == 0);
     CHECK(all.find(cameras) != std::string::npos);
+    // Members of a scene file stand for the chapters of their kinds.
+    CHECK(shell.run({"nodes", "camera"}).out == cameras);
+    CHECK(shell.run({"nodes", "phases"}).out == shell.run({"nodes", "materials"}).out);
+    CHECK(shell.run({"nodes", "tree"}).out == shell.run({"nodes", "objects"}).out);
     const Outcome cube = shell.run({"nodes", "sphere", "cube"});
     CHECK(cube.code == 2);
     CHECK(cube.out == "");

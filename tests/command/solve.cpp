@@ -191,7 +191,7 @@ TEST_CASE("the table names the value, the bracket and what is certain") {
     CHECK(o.code == 0);
     for (const char* part : {"scene               scene.json\n", "number              /shapes/ball/sphere/radius\n",
                              "target              volume(glass) = 330 ml\n", "the bracket is as narrow as requested",
-                             "\nvalue ", "\nlower end ", "\nupper end ", "There is at least one crossing in between."})
+                             "\nvalue ", "\nlower end ", "\nupper end ", "at least once in between."})
         CHECK(o.out.find(part) != std::string::npos);
 }
 

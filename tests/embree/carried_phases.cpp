@@ -19,7 +19,7 @@ TEST_CASE("rays that carry their phase go from interface to interface as the tra
         Phase phase = tracer.label(p, workspace);
         while (const auto c = tracer.first_crossing(p, ray.direction, 0, 1e30f, phase, workspace)) {
             expected.push_back(c->to);
-            p = c->p_out;
+            p = c->p_to;
             phase = c->to;
             REQUIRE(expected.size() < 100);
         }
@@ -35,10 +35,10 @@ TEST_CASE("rays that carry their phase go from interface to interface as the tra
             RTCRayHit s = rayhit({p, ray.direction});
             CHECK(embree::occluded(alone.scene, shadow.context, s.ray) == hits(r));
             if (!hits(r)) break;
-            CHECK(r.ray.tfar == doctest::Approx(query.crossing.t_in).epsilon(1e-6));
+            CHECK(r.ray.tfar == doctest::Approx(query.crossing.t_from).epsilon(1e-6));
             CHECK(query.crossing.from == phase);
             found.push_back(query.crossing.to);
-            p = query.crossing.p_out;
+            p = query.crossing.p_to;
             phase = query.crossing.to;
             REQUIRE(found.size() < 100);
         }
@@ -88,7 +88,7 @@ TEST_CASE("one query serves ray after ray, from one point, along one direction, 
         ++hit;
         CHECK(found.ray.tfar == expected.ray.tfar);
         CHECK(found.hit.instID[0] == expected.hit.instID[0]);
-        CHECK(one.crossing.p_in == fresh.crossing.p_in);
+        CHECK(one.crossing.p_from == fresh.crossing.p_from);
         CHECK(one.crossing.to == fresh.crossing.to);
     }
     CHECK(hit > 500);

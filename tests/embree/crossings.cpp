@@ -74,9 +74,9 @@ TEST_CASE("a ray that starts at an interface meets nothing before its start") {
     TraceCounters counters;
     const auto hit = tracer.first_crossing(origin, direction, 100, Phase{2}, nullptr, counters);
     REQUIRE(hit);
-    CHECK(hit->t_in == 0);
-    CHECK(hit->t_out > 0);
-    CHECK(hit->t_out < 1e-4f);
+    CHECK(hit->t_from == 0);
+    CHECK(hit->t_to > 0);
+    CHECK(hit->t_to < 1e-4f);
 }
 
 }  // namespace test_crossings

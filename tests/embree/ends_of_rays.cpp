@@ -22,7 +22,7 @@ using namespace phasetree::tests;
 namespace {
 
 bool are_same(const Crossing& a, const Crossing& b) {
-    return a.t_in == b.t_in && a.t_out == b.t_out && a.p_in == b.p_in && a.p_out == b.p_out && a.from == b.from &&
+    return a.t_from == b.t_from && a.t_to == b.t_to && a.p_from == b.p_from && a.p_to == b.p_to && a.from == b.from &&
            a.to == b.to;
 }
 
@@ -73,7 +73,7 @@ struct Visited {
             whole.tfar = std::numeric_limits<float>::infinity();
             TraceCounters counters;
             const auto own = embree::search_cell(cells, visited, prepared, whole, vacuum, std::nullopt, counters);
-            ties += own && own->t_in / prepared.length == far;
+            ties += own && own->t_from / prepared.length == far;
         }
         crossing = query.crossing;
         if (embree::is_hit(ray)) cell = ray.hit.primID;
@@ -99,11 +99,11 @@ TEST_CASE("a crossing has the same bits wherever behind it the ray ends") {
             if (!hit) continue;
             ++hits;
             for (int k = 0; k < 4; ++k) {
-                const float end = hit->t_out + 0.02f * bounds.diagonal() * rng.uniform(0, 1) * rng.uniform(0, 1);
+                const float end = hit->t_to + 0.02f * bounds.diagonal() * rng.uniform(0, 1) * rng.uniform(0, 1);
                 const auto other = tracer.first_crossing(origin, direction, end, vacuum, nullptr, counters);
                 differ += !other || !are_same(*hit, *other);
             }
-            const float before = hit->t_in - 1e-5f * bounds.diagonal();
+            const float before = hit->t_from - 1e-5f * bounds.diagonal();
             farther += tracer.first_crossing(origin, direction, before, vacuum, nullptr, counters).has_value();
         }
     }

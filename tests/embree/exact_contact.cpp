@@ -248,7 +248,7 @@ std::vector<Step> crossings(RTCScene scene, const InterfaceCells& cells, const R
         embree::intersect(scene, query.context, hit);
         if (!hits(hit)) return all;
         all.push_back({query.crossing, cells.normal(hit.hit.primID, query.crossing, ray.direction).unit});
-        origin = query.crossing.p_out;
+        origin = query.crossing.p_to;
         carried = query.crossing.to;
     }
     FAIL("a ray does not end");
@@ -275,7 +275,7 @@ std::map<Film, Found> films(RTCDevice device, const SceneTree& tree, int count) 
             const Step &in = steps[k - 1], &out = steps[k];
             // Both point along the ray, so parallel sides have equal normals.
             if (glm::dot(in.normal, out.normal) < 0.9f) continue;
-            const double thickness = static_cast<double>(glm::length(out.crossing.p_in - in.crossing.p_out)) *
+            const double thickness = static_cast<double>(glm::length(out.crossing.p_from - in.crossing.p_to)) *
                                      std::abs(static_cast<double>(glm::dot(in.normal, direction)));
             if (thickness > thin * diagonal) continue;
             const auto& names = tree.phases;

@@ -28,7 +28,7 @@ TEST_CASE("a stock context: hits are the tracer's first crossings") {
         REQUIRE(hits(r) == expected.has_value());
         if (!expected) continue;
         ++hit;
-        CHECK(same_place(r.ray.tfar, expected->t_in, tracer.resolution()));
+        CHECK(same_place(r.ray.tfar, expected->t_from, tracer.resolution()));
         CHECK(r.hit.u == expected->from.index);
         CHECK(r.hit.v == expected->to.index);
         CHECK(r.hit.geomID == alone.id);
@@ -227,7 +227,7 @@ TEST_CASE("beside a triangle mesh the nearest wins, whichever came first") {
             Evaluator::Workspace workspace;
             for (const Ray& ray : rays(500, 8)) {
                 const auto c = tracer.first_crossing(ray.origin, ray.direction, 0, 1e30f, std::nullopt, workspace);
-                const float to_tree = c ? c->t_in : infinity;
+                const float to_tree = c ? c->t_from : infinity;
                 const float along = (x - ray.origin.x) / ray.direction.x;
                 if (along > 50) continue;  // beyond the triangle
                 const float to_mesh = along > 0 ? along : infinity;

@@ -58,8 +58,8 @@ std::vector<Step> walk(RTCScene scene, const std::vector<Standing>& objects, con
         CHECK(phases.of(id) == c.from);
         phases.set(id, c.to);
         steps.push_back({static_cast<std::size_t>(met - objects.begin()), c.from, c.to,
-                         glm::dot(c.p_in + met->shift - ray.origin, ray.direction)});
-        origin = c.p_out + met->shift;
+                         glm::dot(c.p_from + met->shift - ray.origin, ray.direction)});
+        origin = c.p_to + met->shift;
         REQUIRE(steps.size() < 100);
     }
 }
@@ -248,7 +248,7 @@ TEST_CASE("a ray that leaves with its phases evaluates nothing in the cell that 
         const Crossing c = query.crossing;
         const CrossingNormal normal = stone.cells().normal(hit.hit.primID, c, ray.direction);
         if (glm::dot(ray.direction, normal.unit) < 0.25f) continue;
-        const Ray away{c.p_in, glm::reflect(ray.direction, normal.unit)};
+        const Ray away{c.p_from, glm::reflect(ray.direction, normal.unit)};
         const auto counters = [&](const RayPhases& known, const embree::StartHint& start) {
             embree::Query leaving;
             leaving.carry(known);

@@ -37,9 +37,9 @@ void main() {
             result = vec4(-1.0, -1.0, float(c.from), -1.0);
             break;
         }
-        t = c.t_out;
+        t = c.t_to;
         carried = c.to;
-        result = (row & 1) == 0 ? vec4(c.t_in, c.t_out, float(c.from), float(c.to)) : vec4(c.normal, 0.0);
+        result = (row & 1) == 0 ? vec4(c.t_from, c.t_to, float(c.from), float(c.to)) : vec4(c.normal, 0.0);
     }
 }
 )";

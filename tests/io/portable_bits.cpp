@@ -15,7 +15,7 @@ TEST_CASE("the distance to a Bezier curve has the bits of all compilers and proc
     const FlushSubnormals flush;
     const Phased object = read_tree(Document::from_text(R"({"version": 1, "phases": {"ink": {"diffuse": {}}},
             "tree": {"set": {"phase": "ink", "of": {"extrude": {"height": 1, "of": {"bezier":
-                {"points": [[0.1, 0.1], [0.5, 0.1], [0.6, 0.9], [0.3, 0.4]]}}}}}})",
+                {"points": [[0.1, 0.1], [0.5, 0.1], [0.6, 0.9], [0.3, 0.4]]}}}}}}})",
                                                         "test.json"))
                               .object;
     const Evaluator evaluator(record(object));

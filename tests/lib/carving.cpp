@@ -57,10 +57,10 @@ Outside points_outside(const Phased& object, PhaseSet of, const CarvedBounds& ca
         for (int n = 0; n < 20; ++n) {
             const auto crossing = tracer.first_crossing(origin, direction, t, 3 * region.diagonal(), phase, workspace);
             if (!crossing) break;
-            if (is_of(crossing->from)) look(glm::dvec3(crossing->p_in));
-            if (is_of(crossing->to)) look(glm::dvec3(crossing->p_out));
+            if (is_of(crossing->from)) look(glm::dvec3(crossing->p_from));
+            if (is_of(crossing->to)) look(glm::dvec3(crossing->p_to));
             phase = crossing->to;
-            t = crossing->t_out;
+            t = crossing->t_to;
         }
     }
     return found;

@@ -279,7 +279,7 @@ Slivers slivers(const Phased& object, int rays) {
         for (int k = 0; k < 100; ++k) {
             const auto crossing = tracer.first_crossing(origin, d, 0, 4, phase, w);
             if (!crossing) break;
-            const glm::vec3& p = crossing->p_out;
+            const glm::vec3& p = crossing->p_to;
             // Above the surface of the water less the gap, and outside the middle of the wall, there is vacuum.
             const bool is_wet = p.z < level - gap && p.z > -0.5f * wall && std::hypot(p.x, p.y) < radius + 0.5f * wall;
             result.slivers += is_wet && crossing->to == vacuum;

@@ -35,12 +35,12 @@ std::vector<std::uint32_t> sequence(const InterfaceTracer& tracer, const glm::ve
         bits.push_back(static_cast<std::uint32_t>(c.batches));
         if (!hit) break;
         const glm::vec3 normal = tracer.normal(*hit, d);
-        for (const float f : {hit->t_in, hit->t_out, hit->p_in.x, hit->p_in.y, hit->p_in.z, hit->p_out.x, hit->p_out.y,
-                              hit->p_out.z, normal.x, normal.y, normal.z})
+        for (const float f : {hit->t_from, hit->t_to, hit->p_from.x, hit->p_from.y, hit->p_from.z, hit->p_to.x,
+                              hit->p_to.y, hit->p_to.z, normal.x, normal.y, normal.z})
             bits.push_back(std::bit_cast<std::uint32_t>(f));
         bits.push_back(hit->from.index);
         bits.push_back(hit->to.index);
-        origin = hit->p_out;
+        origin = hit->p_to;
         carried = hit->to;
     }
     return bits;

@@ -109,16 +109,16 @@ TEST_CASE("distances count from the ray's origin, whatever the interval") {
         CAPTURE(t_min);
         const auto hit = tracer.first_crossing({0, 0, 0}, d, std::max(t_min, 0.f), 100, {}, w);
         REQUIRE(hit);
-        CHECK(hit->t_in <= 0.5f);
-        CHECK(hit->t_out >= 0.5f);
-        CHECK(hit->t_out - hit->t_in < 2 * tracer.resolution());
-        CHECK(std::abs(hit->p_out.y - hit->t_out) < 1e-6f);
+        CHECK(hit->t_from <= 0.5f);
+        CHECK(hit->t_to >= 0.5f);
+        CHECK(hit->t_to - hit->t_from < 2 * tracer.resolution());
+        CHECK(std::abs(hit->p_to.y - hit->t_to) < 1e-6f);
         if (t_min < 0) {
             // The interval reaches behind the origin: the first crossing within it is there.
             const auto behind = tracer.first_crossing({0, 0, 0}, d, t_min, 100, {}, w);
             REQUIRE(behind);
-            CHECK(std::abs(behind->p_out.y - behind->t_out) < 1e-5f);
-            CHECK(behind->t_out >= t_min);
+            CHECK(std::abs(behind->p_to.y - behind->t_to) < 1e-5f);
+            CHECK(behind->t_to >= t_min);
         }
     }
 }
@@ -129,7 +129,7 @@ TEST_CASE("a far origin costs no accuracy beyond its own rounding") {
     for (const float far : {1e2f, 1e4f, 1e6f}) {
         const auto hit = tracer.first_crossing({-far, 0.6f, 0}, {1, 0, 0}, 0, infinity, vacuum, w);
         REQUIRE(hit);
-        CHECK(std::abs(hit->p_out.x + 0.8f) < 4 * tracer.resolution());
+        CHECK(std::abs(hit->p_to.x + 0.8f) < 4 * tracer.resolution());
         CHECK(hit->to == Phase{1});
     }
 }
@@ -218,9 +218,9 @@ TEST_CASE("a ray creeps along any surface in bounded time, at any resolution, an
                     const auto hit = tracer.first_crossing(from, along, 0, infinity, carried, w, &c);
                     most = std::max(most, c.batches);
                     if (!hit) break;
-                    passed += hit->t_out;
+                    passed += hit->t_to;
                     is_found = is_found || (hit->to == Phase{1} && std::abs(passed - (far - 0.1f)) < 1e-4f);
-                    from = hit->p_out;
+                    from = hit->p_to;
                     carried = hit->to;
                 }
                 CHECK(most < (finer > 1 ? most_batches_at_all : creep.most));

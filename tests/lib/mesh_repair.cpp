@@ -323,7 +323,7 @@ TEST_CASE("rays through a repaired mesh meet its surface, and no triangle within
         float t = 0;
         while (true) {
             const auto crossing = tracer.first_crossing(origin, direction, t, 12, phase, workspace);
-            const float end = crossing ? crossing->t_in : 12;
+            const float end = crossing ? crossing->t_from : 12;
             const Phase before = crossing ? crossing->from : phase.value_or(Phase{0});
             for (int k = 0; k < 4; ++k, ++points) {
                 const glm::dvec3 p(origin + glm::mix(t, end, rng.uniform(0, 1)) * direction);
@@ -333,7 +333,7 @@ TEST_CASE("rays through a repaired mesh meet its surface, and no triangle within
             if (!crossing) break;
             ++crossings;
             phase = crossing->to;
-            t = crossing->t_out;
+            t = crossing->t_to;
         }
     }
     CHECK(crossings > 500);

@@ -271,7 +271,7 @@ TEST_CASE("a ray within rounding of a plane that it runs along has the plane's n
         for (int ray = 0; ray < 50; ++ray) {
             const glm::vec3 o = 0.5f * n + rng.uniform(-1e-6f, 1e-6f) * n - 0.4f * along;
             each_crossing(tracer, o, along, [&](const Crossing& c, const glm::vec3& d) {
-                if (glm::length(c.p_in - 0.5f * n) > 0.45f) return;
+                if (glm::length(c.p_from - 0.5f * n) > 0.45f) return;
                 const glm::vec3 normal = tracer.normal(c, d);
                 ++crossings;
                 REQUIRE(std::abs(glm::dot(normal, n)) > 0.999f);

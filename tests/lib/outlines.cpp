@@ -213,17 +213,18 @@ TEST_CASE("in a box the few pieces that matter there give the same distances to 
 TEST_CASE("what is no outline is rejected") {
     const auto refused = [](auto n, const char* why) { CHECK_THROWS_WITH_AS(n.prepare(), why, ModelError); };
     refused(Polygon{.points = {{0, 0}, {1, 1}, {1, 0}, {0, 1}}},
-            "polygon: the edges from its points 1 and 3 cross or touch");
+            "polygon: the edges from its points 1 and 3 (not counting repeated points) cross or touch");
     refused(Polygon{.points = {{0, 0}, {2, 0}, {1, 0}, {1, 1}}},
-            "polygon: the edges from its points 1 and 2 cross or touch");
+            "polygon: the edges from its points 1 and 2 (not counting repeated points) cross or touch");
     refused(Polygon{.points = {{0, 0}, {2, 0}, {2, 2}, {1, 0}}},
-            "polygon: the edges from its points 1 and 3 cross or touch");
+            "polygon: the edges from its points 1 and 3 (not counting repeated points) cross or touch");
     refused(Polygon{.points = {{0, 0}, {1, 0}, {1, 0}, {0, 0}}},
             "polygon: at least three different points are required");
     refused(Polygon{.points = {{0, 0}, {1, 0}, {2e9f, 1}}}, "polygon: its points must be within 1e9 m of the origin");
     refused(Bezier{.points = {{0, 0}, {1, 0}, {1, 1}}},
             "bezier: an odd number of points is an open curve, which needs a thickness");
-    refused(Bezier{.points = {{0, 0}, {1, 0}}}, "bezier: fewer than three points, or four for a closed curve");
+    refused(Bezier{.points = {{0, 0}, {1, 0}}},
+            "bezier: an open curve needs at least three points, a closed one at least four");
     refused(Bezier{.points = {{1, 0}, {1, 0}, {1, 0}, {1, 0}}}, "bezier: all of its points are the same");
     CHECK_NOTHROW((Polygon{.points = {{0, 0}, {1, 0}, {1, 1}, {1, 1}, {0, 0}}}.prepare()));
     CHECK_NOTHROW((Bezier{.points = {{0, 0}, {1, 0}, {1, 1}}, .thickness = 0.1f}.prepare()));

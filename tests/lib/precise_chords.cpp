@@ -59,9 +59,9 @@ MeanChord mean_chord(const PreciseTracer& tracer, Phase of, Random& rng, std::si
             double l = 0, n = 0, entered = 0;
             for (std::size_t k = found->offsets[i]; k < found->offsets[i + 1]; ++k) {
                 const PreciseCrossing& c = found->crossings[k];
-                if (c.to == of) entered = c.t_out;
+                if (c.to == of) entered = c.t_to;
                 if (c.from == of) {
-                    l += c.t_in - entered;
+                    l += c.t_from - entered;
                     ++n;
                 }
             }
@@ -110,9 +110,9 @@ LineTracer lines_in_floats(const InterfaceTracer& tracer) {
         Phase carried = vacuum;
         float behind = 0;
         while (const auto c = tracer.first_crossing(from, direction, 0, length - behind, carried, w)) {
-            found.push_back({behind + c->t_in, c->from, c->to});
-            from = c->p_out;
-            behind += c->t_out;
+            found.push_back({behind + c->t_from, c->from, c->to});
+            from = c->p_to;
+            behind += c->t_to;
             carried = c->to;
         }
     };

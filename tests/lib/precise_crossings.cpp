@@ -30,7 +30,7 @@ namespace {
 // coincident), with and without the phase that they are in.
 PreciseRay from_crossing(Random& rng, const PreciseCrossing& c, const dvec3& d) {
     const bool is_far = rng.chance(0.5);
-    PreciseRay ray{is_far ? c.p_out : c.p_in, dvec3(rng.direction())};
+    PreciseRay ray{is_far ? c.p_to : c.p_from, dvec3(rng.direction())};
     switch (rng.below(4)) {
         case 0:
             ray.direction = is_far ? d : -d;
@@ -166,8 +166,8 @@ TEST_CASE("the comparison sees lost, repeated and mislabelled crossings") {
     mislabelled.crossings[1].to = phase(1);
     CHECK(errors(mislabelled) > 0);
     Walk moved_by_little = right;
-    moved_by_little.crossings[2].t_out += 1e-9;
-    moved_by_little.crossings[2].t_in += 1e-9;
+    moved_by_little.crossings[2].t_to += 1e-9;
+    moved_by_little.crossings[2].t_from += 1e-9;
     CHECK(errors(moved_by_little) > 0);
 }
 
@@ -221,13 +221,13 @@ TEST_CASE("a ray that starts on a face, runs along one or touches a ball") {
     const auto inward = in_box.first_crossing({.origin = {0, 0, 1}, .direction = {0, 0, -1}});
     REQUIRE(inward);
     CHECK(inward->from == vacuum);
-    CHECK(inward->t_out < 1e-15);
+    CHECK(inward->t_to < 1e-15);
     CHECK(inward->normal.z == doctest::Approx(-1));
     CHECK_FALSE(in_box.first_crossing({.origin = {0, 0, 1}, .direction = {0, 0, 1}}));
     // In the phase that the ray comes from, it starts beyond the face.
     const auto on = in_box.first_crossing({.origin = {0, 0, 1}, .direction = {0, 0, -1}, .carried = phase(1)});
     REQUIRE(on);
-    CHECK(on->t_in == doctest::Approx(2));
+    CHECK(on->t_from == doctest::Approx(2));
     // Along the face, and along an edge.
     CHECK_FALSE(in_box.first_crossing({.origin = {-5, 0, 1}, .direction = {1, 0, 0}}));
     CHECK_FALSE(in_box.first_crossing({.origin = {-5, 1, 1}, .direction = {1, 0, 0}}));
@@ -236,11 +236,11 @@ TEST_CASE("a ray that starts on a face, runs along one or touches a ball") {
     const PreciseRay chord{.origin = {-3, 0, 1 - 1e-12}, .direction = {1, 0, 0}};
     const auto found = at_ball.crossings(std::span(&chord, 1));
     REQUIRE(found->crossings.size() == 2);
-    CHECK(found->crossings[1].t_in - found->crossings[0].t_out == doctest::Approx(2 * std::sqrt(2e-12)).epsilon(1e-3));
+    CHECK(found->crossings[1].t_from - found->crossings[0].t_to == doctest::Approx(2 * std::sqrt(2e-12)).epsilon(1e-3));
     // A carried phase that is nowhere near is a crossing at the start, of zero length.
     const auto mistaken = in_box.first_crossing({.origin = {0, 0, 0}, .carried = phase(3)});
     REQUIRE(mistaken);
-    CHECK(mistaken->t_out == 0);
+    CHECK(mistaken->t_to == 0);
     CHECK(mistaken->from == phase(3));
     CHECK(mistaken->to == phase(1));
 }
@@ -249,8 +249,8 @@ TEST_CASE("distances are in units of the direction, and t_max ends the search") 
     const PreciseTracer tracer(filled(1, Sphere{.radius = 1}));
     const auto hit = tracer.first_crossing({.origin = {-3, 0, 0}, .direction = {4, 0, 0}});
     REQUIRE(hit);
-    CHECK(hit->t_in == doctest::Approx(0.5).epsilon(1e-14));
-    CHECK(hit->p_out.x == doctest::Approx(-1).epsilon(1e-14));
+    CHECK(hit->t_from == doctest::Approx(0.5).epsilon(1e-14));
+    CHECK(hit->p_to.x == doctest::Approx(-1).epsilon(1e-14));
     CHECK_FALSE(tracer.first_crossing({.origin = {-3, 0, 0}, .direction = {4, 0, 0}, .t_max = 0.4999}));
     CHECK(tracer.first_crossing({.origin = {-3, 0, 0}, .direction = {4, 0, 0}, .t_max = 0.5001}));
     constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
@@ -262,7 +262,7 @@ TEST_CASE("distances are in units of the direction, and t_max ends the search") 
     // From far away, the ray is only rounded where it enters the bounds.
     const auto far = tracer.first_crossing({.origin = {-1e9, 0.25, 0}, .direction = {1, 0, 0}});
     REQUIRE(far);
-    CHECK(glm::length(far->p_out) == doctest::Approx(1).epsilon(1e-14));
+    CHECK(glm::length(far->p_to) == doctest::Approx(1).epsilon(1e-14));
 }
 
 TEST_CASE("results do not depend on threads, and batches can be cancelled") {
@@ -279,10 +279,10 @@ TEST_CASE("results do not depend on threads, and batches can be cancelled") {
         std::vector<double> numbers;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             CHECK(first[i].has_value() == (all->offsets[i + 1] > all->offsets[i]));
-            if (first[i]) CHECK(first[i]->t_out == all->crossings[all->offsets[i]].t_out);
+            if (first[i]) CHECK(first[i]->t_to == all->crossings[all->offsets[i]].t_to);
         }
         for (const PreciseCrossing& c : all->crossings)
-            numbers.insert(numbers.end(), {c.t_in, c.t_out, c.p_in.x, c.normal.z, double(c.to.index)});
+            numbers.insert(numbers.end(), {c.t_from, c.t_to, c.p_from.x, c.normal.z, double(c.to.index)});
         return numbers;
     };
     const std::vector<double> several = bytes();
@@ -308,7 +308,7 @@ TEST_CASE("objects that cannot be traced, and resolutions") {
     const PreciseRay ray{.origin = {0.3, 0.2, 1}, .direction = {0, 0, -1}};
     const auto found = PreciseTracer(wall).crossings(std::span(&ray, 1));
     REQUIRE(found->crossings.size() == 2);
-    CHECK(found->crossings[1].t_in - found->crossings[0].t_out == doctest::Approx(double{1e-7f}).epsilon(1e-7));
+    CHECK(found->crossings[1].t_from - found->crossings[0].t_to == doctest::Approx(double{1e-7f}).epsilon(1e-7));
 }
 
 }  // namespace test_precise_crossings

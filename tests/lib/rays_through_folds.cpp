@@ -43,7 +43,7 @@ TEST_CASE("a ray that creeps along endless copies meets the bump of the next one
         ++creeping;
         const auto hit = tracer.first_crossing(origin, direction, 0, 10, vacuum, workspace);
         const float expected = (cell + 1) * spacing - half_slab;
-        if (!hit || std::abs(origin.x + hit->t_in * direction.x - expected) > 1e-5f) ++wrong;
+        if (!hit || std::abs(origin.x + hit->t_from * direction.x - expected) > 1e-5f) ++wrong;
     }
     CHECK(creeping > 1000);
     CHECK(wrong == 0);

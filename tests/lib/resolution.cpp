@@ -40,15 +40,15 @@ void check_hits(const Phased& object, float resolution, const glm::vec3& at, Ran
         REQUIRE(hit.has_value());
         // Half of a root's slope at such rays, and what coordinates are rounded to.
         const float tolerance = 4 * tracer.resolution() + 1e-6f * glm::length(at);
-        REQUIRE(std::abs(glm::length(hit->p_in - at) - 1) < tolerance);
-        REQUIRE(hit->t_out - hit->t_in <= 2.75f * tracer.resolution() + tolerance);
+        REQUIRE(std::abs(glm::length(hit->p_from - at) - 1) < tolerance);
+        REQUIRE(hit->t_to - hit->t_from <= 2.75f * tracer.resolution() + tolerance);
         hit.reset();
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            const auto c = cells.first_crossing(i, o, d, 0, hit ? hit->t_in : 100.f, vacuum, w, counters);
+            const auto c = cells.first_crossing(i, o, d, 0, hit ? hit->t_from : 100.f, vacuum, w, counters);
             if (c) hit = c;
         }
         REQUIRE(hit.has_value());
-        REQUIRE(std::abs(glm::length(hit->p_in - at) - 1) < tolerance);
+        REQUIRE(std::abs(glm::length(hit->p_from - at) - 1) < tolerance);
         REQUIRE(counters.batches < 5000);
     }
 }

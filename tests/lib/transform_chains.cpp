@@ -212,13 +212,13 @@ void check_hits(const Field& f, const Cloud& cloud, Random& rng, bool with_cells
         const auto is_off = [&](double t) { return !(t < low + tolerance) || !is_surface(t); };
         const auto hit = tracer.first_crossing(o, d, 0, length, vacuum, w);
         REQUIRE(hit.has_value());
-        off += is_off(static_cast<double>(hit->t_in));
+        off += is_off(static_cast<double>(hit->t_from));
         if (!cells) continue;
         std::optional<float> first;
         for (std::size_t i = 0; i < cells->size(); ++i) {
             TraceCounters counters;
             if (const auto c = cells->first_crossing(i, o, d, 0, first.value_or(length), vacuum, w, counters))
-                first = c->t_in;
+                first = c->t_from;
         }
         REQUIRE(first.has_value());
         off += is_off(static_cast<double>(*first));
@@ -309,7 +309,7 @@ TEST_CASE("chains of links: a polygon of joints and an arm") {
                 REQUIRE(c.has_value());
                 REQUIRE(a.has_value());
                 const float cosine = std::abs(glm::dot(one.normal(*c, d), d));
-                off += !(std::abs(a->t_in - c->t_in) * cosine < 4 * one.resolution());
+                off += !(std::abs(a->t_from - c->t_from) * cosine < 4 * one.resolution());
             }
             CHECK(off == 0);
         }

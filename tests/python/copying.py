@@ -47,7 +47,7 @@ def examples():
         view.close()
     several = pt.Scene(
         camera=CAMERA, lights=SKY, objects={"a": BOTTLE, "b": (GLASS(pt.sphere(0.3)), (3, 0, 0))},
-        groups={"row": [pt.places("a", POINTS[:3] * 10)]}, instances=pt.places("row", np.eye(4)), name="several",
+        groups={"row": [pt.instances_of("a", POINTS[:3] * 10)]}, instances=pt.instances_of("row", np.eye(4)), name="several",
     )  # fmt: skip
     chain = x
     for i in range(3000):
@@ -68,7 +68,7 @@ def examples():
         "Phase": [GLASS, pt.phase("bare"), pt.vacuum],
         "PhaseMesh": [BOTTLE.mesh(0.3)],
         "Proof": BOTTLE.prove({"present": {"phase": BOTTLE.names[1]}}, {"closed": {"walls": BOTTLE.names[1], "around": BOTTLE.names[2]}}),
-        "Places": [pt.places("a", POINTS)],
+        "Instances": [pt.instances_of("a", POINTS)],
         "Scene": [SCENE, several, pt.Scene(BOTTLE)],
         "SceneError": [scene_error()],
         "Solution": [pt.solve(lambda radius: WATER(pt.sphere(radius)), 1, 0.3, 1, tolerance=0.1)],

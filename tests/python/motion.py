@@ -28,7 +28,7 @@ class Motion(unittest.TestCase):
             ('translate: "by"', lambda: pt.sphere(1).translate(keys((0, 0, 0), (1, 0, 0)))),
             ('translate: "by"', lambda: pt.sphere(1).translate([keys(0, 1), 0, 0])),
             ('rotate: "angle"', lambda: glass(pt.sphere(1)).rotate(keys(0, 90))),
-            ("transforms", lambda: pt.places("ball", keys((0, 0, 0), (1, 0, 0)))),
+            ("transforms", lambda: pt.instances_of("ball", keys((0, 0, 0), (1, 0, 0)))),
             ('the map of "ball"', lambda: pt.Scene(objects={"ball": (glass(pt.sphere(1)), keys((0, 0, 0), (1, 0, 0)))})),
         ):  # fmt: skip
             with self.subTest(name):
@@ -85,7 +85,7 @@ class Motion(unittest.TestCase):
 
     def test_names_that_are_keys(self):
         ball = pt.phase("keys", pt.diffuse((1, 1, 1)))(pt.sphere(1))
-        scene = pt.Scene(objects={"keys": ball}, groups={"k": [pt.places("keys", np.eye(4))]}, instances=pt.places("k", (0, 0, 0)))
+        scene = pt.Scene(objects={"keys": ball}, groups={"k": [pt.instances_of("keys", np.eye(4))]}, instances=pt.instances_of("k", (0, 0, 0)))
         scene.save(self.folder / "keys.json")
         with warnings.catch_warnings():
             warnings.simplefilter("error")

@@ -38,8 +38,8 @@ def several_objects():
         # Its tree shares a part, and both trees have parts of the same name.
         objects={"ball": glass(pt.sphere(0.4) | pt.sphere(0.4).translate((0, 0, 0.1))),
                  "cube": (sand(block | block.translate((0, 0, 0.2))), turned)},
-        groups={"pair": [pt.places("ball", (0, 0, 0)), pt.places("cube", (1, 0, 0))]},
-        instances=[pt.places("pair", [(0, 0, 0), (0, 2, 0)]), pt.places("ball", np.eye(4) * [[0.5], [0.5], [0.5], [1]])],
+        groups={"pair": [pt.instances_of("ball", (0, 0, 0)), pt.instances_of("cube", (1, 0, 0))]},
+        instances=[pt.instances_of("pair", [(0, 0, 0), (0, 2, 0)]), pt.instances_of("ball", np.eye(4) * [[0.5], [0.5], [0.5], [1]])],
         camera=pt.camera((0.5, -8, 3), (0.5, 2, 0)),
         lights=pt.lights.gradient(zenith=(1, 1, 1), horizon=(0.7, 0.7, 0.7), ground=(0.2, 0.2, 0.2)),
         image=pt.image(width=60, height=40, samples=2),
@@ -71,7 +71,7 @@ class ManyObjects(unittest.TestCase):
         scene = pt.load(path)
         self.assertEqual(scene.instances[0].transforms.shape, (2400, 3, 4))
         self.assertEqual([p.name for p in scene.phases], ["vacuum", "hourglass.glass", "hourglass.sand", "hourglass.wood", "hourglass.brass"])
-        few = scene.with_(instances=pt.places("hourglass", scene.instances[0].transforms[:5]))
+        few = scene.with_(instances=pt.instances_of("hourglass", scene.instances[0].transforms[:5]))
         few.save(self.folder / "few.json")
         self.assertEqual(pt.load(self.folder / "few.json"), few)
         own, files = (run("trace", p, "--object", "hourglass", given="0 -3 0.5 0 1 0\n") for p in (self.folder / "few.json", path))
@@ -103,19 +103,19 @@ class ManyObjects(unittest.TestCase):
         for make, said in (
             (lambda: pt.Scene(), "an object, named objects, or only meshes"),
             (lambda: pt.Scene(ball, objects={"a": ball}), "an object, named objects, or only meshes"),
-            (lambda: pt.Scene(ball, instances=pt.places("a", (0, 0, 0))), "place named objects"),
+            (lambda: pt.Scene(ball, instances=pt.instances_of("a", (0, 0, 0))), "place named objects"),
             (lambda: pt.Scene(objects={"a": pt.sphere(1)}), "must be an object of phases"),
             (lambda: pt.Scene(objects={"a": ball, "b": other}), 'different materials for the phase "glass"'),
             (lambda: pt.Scene(objects={"a": (ball, np.zeros((2, 3)))}), "2 maps of its own"),
-            (lambda: pt.places("a", np.zeros((2, 2))), r"the shape is \(2, 2\)"),
-            (lambda: pt.places("a", (0, np.nan, 0)), "finite"),
-            (lambda: pt.places("a", np.ones((4, 4))), "the last row"),
-            (lambda: pt.places(ball, (0, 0, 0)), "need the name"),
+            (lambda: pt.instances_of("a", np.zeros((2, 2))), r"the shape is \(2, 2\)"),
+            (lambda: pt.instances_of("a", (0, np.nan, 0)), "finite"),
+            (lambda: pt.instances_of("a", np.ones((4, 4))), "the last row"),
+            (lambda: pt.instances_of(ball, (0, 0, 0)), "need the name"),
         ):
             with self.assertRaisesRegex(pt.Error, said):
                 make()
         with self.assertRaisesRegex(pt.SceneError, 'did you mean "ball"'):
-            several_objects().with_(instances=pt.places("bal", (0, 0, 0))).render()
+            several_objects().with_(instances=pt.instances_of("bal", (0, 0, 0))).render()
 
 
 class Files(unittest.TestCase):

@@ -25,9 +25,9 @@ inline bool is_sliver(const InterfaceTracer& tracer, const Crossing& a, const Cr
                       Evaluator::Workspace& w) {
     if (a.from != b.from) return false;
     const auto leads_to = [&](const Crossing& seen, const Crossing& passed) {
-        if (tracer.label(seen.p_out, w) != seen.to) return false;
-        const auto next = tracer.first_crossing(seen.p_out, d, 0, 8 * tracer.resolution(), seen.to, w);
-        return next && next->t_in < 2.5f * tracer.resolution() && next->to == passed.to;
+        if (tracer.label(seen.p_to, w) != seen.to) return false;
+        const auto next = tracer.first_crossing(seen.p_to, d, 0, 8 * tracer.resolution(), seen.to, w);
+        return next && next->t_from < 2.5f * tracer.resolution() && next->to == passed.to;
     };
     return leads_to(a, b) || leads_to(b, a);
 }
@@ -83,17 +83,17 @@ std::optional<Crossing> beyond_hairs(const Phased& object, const glm::vec3& orig
     double passed = 0;
     // Limited, because a ray makes no progress between cells that contradict each other.
     for (int hairs = 0; c && hairs < 1000; ++hairs) {
-        const std::optional<Crossing> after = next(c->p_out, c->to);
+        const std::optional<Crossing> after = next(c->p_to, c->to);
         if (!after || after->to != c->from) break;
-        if (after->t_in > resolution && !is_rounding(object, c->p_out, after->p_in, d, c->from, resolution) &&
-            !is_undecided(object, c->p_out, after->p_in, d, c->from, resolution))
+        if (after->t_from > resolution && !is_rounding(object, c->p_to, after->p_from, d, c->from, resolution) &&
+            !is_undecided(object, c->p_to, after->p_from, d, c->from, resolution))
             break;
-        passed += static_cast<double>(c->t_out) + static_cast<double>(after->t_out);
+        passed += static_cast<double>(c->t_to) + static_cast<double>(after->t_to);
         c = next(glm::vec3(glm::dvec3(origin) + passed * glm::dvec3(d)), after->to);
     }
     if (c) {
-        c->t_in = static_cast<float>(passed + static_cast<double>(c->t_in));
-        c->t_out = static_cast<float>(passed + static_cast<double>(c->t_out));
+        c->t_from = static_cast<float>(passed + static_cast<double>(c->t_from));
+        c->t_to = static_cast<float>(passed + static_cast<double>(c->t_to));
     }
     return c;
 }
@@ -103,10 +103,10 @@ inline std::optional<Crossing> nearest_crossing(const CellsAlongRay& cells, cons
                                                 Phase phase, Evaluator::Workspace& w, TraceCounters& counters) {
     std::optional<Crossing> nearest;
     for (const auto& [enter, leave, c] : cells.along(p, d)) {
-        if (nearest && nearest->t_in < enter) break;
-        const float end = std::min(leave + 1e-3f, nearest ? nearest->t_in : 1e6f);
+        if (nearest && nearest->t_from < enter) break;
+        const float end = std::min(leave + 1e-3f, nearest ? nearest->t_from : 1e6f);
         const auto hit = cells.cells().first_crossing(c, p, d, 0, end, phase, w, counters);
-        if (hit && (!nearest || hit->t_in < nearest->t_in)) nearest = hit;
+        if (hit && (!nearest || hit->t_from < nearest->t_from)) nearest = hit;
     }
     return nearest;
 }
@@ -135,7 +135,7 @@ inline ComparedRay compared_ray(const InterfaceTracer& tracer, bool grazes, Rand
     if (!(glm::length(along) > 1e-3f)) return through;
     const float size = box.diagonal(), side = rng.uniform(0, 1) < 0.5f ? -1.f : 1.f;
     const glm::vec3 d = glm::normalize(along);
-    return {met->p_out + n * (side * size * std::exp2(-rng.uniform(4, 18))) - d * (0.5f * size), d};
+    return {met->p_to + n * (side * size * std::exp2(-rng.uniform(4, 18))) - d * (0.5f * size), d};
 }
 
 /// Cells must find the same crossings at every build quality; most are built at medium quality.
@@ -162,8 +162,8 @@ inline void compare_ray(const Phased& object, const CellsAlongRay& cells, const 
         // A ray that grazes an interface may cross it anywhere there.
         const auto is_there = [&](const std::optional<Crossing>& a, const std::optional<Crossing>& b) {
             if (!a || !b) return a.has_value() == b.has_value();
-            return std::abs(a->t_in - b->t_in) <= tolerance ||
-                   is_rounding(object, a->p_out, b->p_out, d, a->from, tracer.resolution());
+            return std::abs(a->t_from - b->t_from) <= tolerance ||
+                   is_rounding(object, a->p_to, b->p_to, d, a->from, tracer.resolution());
         };
         std::optional<Crossing> expected = by_whole(p, phase), nearest = by_cells(p, phase);
         if (!is_there(expected, nearest)) {
@@ -181,7 +181,7 @@ inline void compare_ray(const Phased& object, const CellsAlongRay& cells, const 
         ++result.crossings;
         const bool same = nearest->from == expected->from && nearest->to == expected->to;
         if (!same && !is_sliver(tracer, *expected, *nearest, d, w)) ++result.different;
-        p = nearest->p_out;
+        p = nearest->p_to;
         phase = nearest->to;
         result.into_opaque += opaque.contains(phase);
     }

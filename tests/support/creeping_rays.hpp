@@ -158,7 +158,7 @@ inline std::optional<OnSurface> on_surface(Random& rng, const InterfaceTracer& t
             o = glm::round(rng.in(b)*8.f) / 8.f - d * b.diagonal();
         }
         if (const auto hit = tracer.first_crossing(o, d, 0, 1e30f, {}, w))
-            return OnSurface{dvec3(hit->p_in), dvec3(tracer.normal(*hit, d))};
+            return OnSurface{dvec3(hit->p_from), dvec3(tracer.normal(*hit, d))};
     }
     return std::nullopt;
 }
@@ -314,10 +314,10 @@ void check(const Scene& scene, const Tracer& tracer, Totals& totals) {
         totals.batches += counters.batches;
         totals.max_batches = std::max(totals.max_batches, counters.batches);
         if (!hit) break;
-        changes.push_back({glm::dot(dvec3(hit->p_in) - o, d), glm::dot(dvec3(hit->p_out) - o, d), hit->from, hit->to});
-        if (hit->from != carried || tracer.label(hit->p_out) != hit->to) ++totals.uncertified;
+        changes.push_back({glm::dot(dvec3(hit->p_from) - o, d), glm::dot(dvec3(hit->p_to) - o, d), hit->from, hit->to});
+        if (hit->from != carried || tracer.label(hit->p_to) != hit->to) ++totals.uncertified;
         carried = hit->to;
-        origin = hit->p_out;
+        origin = hit->p_to;
         last = hit;
         aside = std::max(aside, glm::length(glm::cross(dvec3(origin) - o, d)));
         is_flickering = n > 300;

@@ -3,14 +3,14 @@
 /// Compares tracing with analytic roots: no interface may be missed or invented, and each must be in the right place.
 ///
 /// The exact sequence of phases along a ray comes from support/analytic_roots.hpp. The tracer's sequence comes from
-/// repeated calls of first_crossing(): each ray starts at p_out of the previous crossing, in the phase entered there.
+/// repeated calls of first_crossing(): each ray starts at p_to of the previous crossing, in the phase entered there.
 ///
 /// Both are step functions of t. Where they differ over a stretch of the ray, the tracer is wrong, with two exceptions.
 /// The stretch may be shorter than four resolutions, because this is all that tracing promises. Or all of it may be
 /// within one resolution of an interface (a grazing ray, a ray within a face), where rounding decides labels. The same
 /// rules apply to rays that creep along an interface for long.
 ///
-/// Each ray's origin is the last one's p_out, rounded to floats. This displaces a ray that flickers along a face a
+/// Each ray's origin is the last one's p_to, rounded to floats. This displaces a ray that flickers along a face a
 /// thousand times, always in one direction if its steps are shorter than an ulp of a coordinate. From there on, a
 /// parallel ray is traced. It is compared with the exact ray with a tolerance of the distance between them.
 
@@ -27,7 +27,7 @@
 
 /// A tracer under test has a type Hit, which is a Crossing, and
 ///     std::optional<Hit> first_crossing(origin, direction, length, carried, const Hit* start, counters)
-///         `start`: the hit whose p_in or p_out the ray starts from, if it does
+///         `start`: the hit whose p_from or p_to the ray starts from, if it does
 ///     glm::vec3 normal(hit, direction), Phase label(point), Bounds bounds(), float resolution()
 namespace phasetree::tests::traced {
 
@@ -110,7 +110,7 @@ class RayCheck {
   private:
     using Hit = typename Tracer::Hit;
     struct Step {
-        double t_in, t_out;
+        double t_from, t_to;
         Hit crossing;
         double aside;  ///< distance from the exact ray at which it was searched for
         bool is_rounded;
@@ -133,26 +133,26 @@ class RayCheck {
             totals_.max_batches = std::max(totals_.max_batches, counters.batches);
             if (!hit) break;
             steps_.push_back(
-                {glm::dot(dvec3(hit->p_in) - o_, d_), glm::dot(dvec3(hit->p_out) - o_, d_), *hit, aside_, false});
+                {glm::dot(dvec3(hit->p_from) - o_, d_), glm::dot(dvec3(hit->p_to) - o_, d_), *hit, aside_, false});
             ++totals_.crossings;
             const bool certified = hit->from == carried && hit->from != hit->to &&
-                                   tracer_.label(hit->p_out) == hit->to &&
-                                   (tracer_.label(hit->p_in) == hit->from || (hit->t_in == 0 && hit->t_out == 0));
+                                   tracer_.label(hit->p_to) == hit->to &&
+                                   (tracer_.label(hit->p_from) == hit->from || (hit->t_from == 0 && hit->t_to == 0));
             // Along a face at an angle of 10⁻⁵, labels depend on rounding over a long distance.
             const bool is_rounded = !certified && hit->from == carried && hit->from != hit->to &&
-                                    is_within_rounding(tracer_, hit->p_in, hit->from) &&
-                                    is_within_rounding(tracer_, hit->p_out, hit->to);
+                                    is_within_rounding(tracer_, hit->p_from, hit->from) &&
+                                    is_within_rounding(tracer_, hit->p_to, hit->to);
             totals_.rounded += is_rounded;
             steps_.back().is_rounded = is_rounded;
             if (!certified && !is_rounded && totals_.uncertified++ < 3) complain("not certified");
-            const double width = glm::length(dvec3(hit->p_out) - dvec3(hit->p_in));
+            const double width = glm::length(dvec3(hit->p_to) - dvec3(hit->p_from));
             // A bracket is at most a resolution long, apart from rounding its ends to float coordinates. A bracket
             // across a sliver of a third phase, which may stay undecided for 1.5 resolutions, is that much longer.
-            totals_.over_sliver += width > 1.01 * resolution_ + 1e-6 * glm::length(dvec3(hit->p_in));
-            if (width > 2.75 * resolution_ + 1e-6 * glm::length(dvec3(hit->p_in)) && totals_.wide++ < 3)
+            totals_.over_sliver += width > 1.01 * resolution_ + 1e-6 * glm::length(dvec3(hit->p_from));
+            if (width > 2.75 * resolution_ + 1e-6 * glm::length(dvec3(hit->p_from)) && totals_.wide++ < 3)
                 complain("wide bracket");
             carried = hit->to;
-            origin = hit->p_out;
+            origin = hit->p_to;
             aside_ = std::max(aside_, glm::length(glm::cross(dvec3(origin) - o_, d_)));
         }
         totals_.creeping += creeps_;
@@ -164,7 +164,7 @@ class RayCheck {
     void compare_labels() {
         std::vector<double> breaks{0, length_};
         for (const Piece& p : exact_) breaks.push_back(p.start);
-        for (const Step& s : steps_) breaks.push_back(0.5 * (s.t_in + s.t_out));
+        for (const Step& s : steps_) breaks.push_back(0.5 * (s.t_from + s.t_to));
         std::sort(breaks.begin(), breaks.end());
         const auto exact_label = [&](double t) {
             std::size_t i = 0;
@@ -174,7 +174,7 @@ class RayCheck {
         const auto traced_label = [&](double t) {
             Phase l = first_;
             for (const Step& s : steps_)
-                if (0.5 * (s.t_in + s.t_out) <= t) l = s.crossing.to;
+                if (0.5 * (s.t_from + s.t_to) <= t) l = s.crossing.to;
             return l;
         };
         double wrong_since = -1;
@@ -218,10 +218,10 @@ class RayCheck {
             if (!is_smooth(scene_.object, o_ + t * d_, n, exact_[i - 1].phase, exact_[i].phase, resolution_)) continue;
             const Step* nearest = nullptr;
             for (const Step& s : steps_)
-                if (!nearest || std::abs(s.t_out - t) < std::abs(nearest->t_out - t)) nearest = &s;
+                if (!nearest || std::abs(s.t_to - t) < std::abs(nearest->t_to - t)) nearest = &s;
             // The field's own rounding, below half a resolution, moves the interface along a slanted ray.
             const double tolerance = (0.5 * resolution_ + (nearest ? nearest->aside : 0)) / cosine;
-            if (!nearest || nearest->t_in > t + tolerance || nearest->t_out < t - tolerance) {
+            if (!nearest || nearest->t_from > t + tolerance || nearest->t_to < t - tolerance) {
                 if (totals_.misplaced++ < 3) complain("misplaced");
                 continue;
             }
@@ -239,15 +239,15 @@ class RayCheck {
         // The normal is evaluated at an end of the bracket, and the normal of a small ball changes on the way there.
         const auto is_off = [&](const dvec3& m) { return glm::length(glm::cross(dvec3(normal), m)) > 1e-3; };
         if (glm::dot(dvec3(normal), n) < 0 ||
-            (is_off(n) && is_off(growth(scene_.object, dvec3(hit.p_in), hit.from, resolution_)) &&
-             is_off(growth(scene_.object, dvec3(hit.p_out), hit.to, resolution_)))) {
+            (is_off(n) && is_off(growth(scene_.object, dvec3(hit.p_from), hit.from, resolution_)) &&
+             is_off(growth(scene_.object, dvec3(hit.p_to), hit.to, resolution_)))) {
             if (totals_.bad_normals++ < 3) complain("normal");
         }
         const glm::vec3 back = glm::normalize(probe_.d - 2 * glm::dot(probe_.d, normal) * normal);
         TraceCounters unused;
-        const auto again = tracer_.first_crossing(hit.p_in, back, length_, hit.from, &hit, unused);
+        const auto again = tracer_.first_crossing(hit.p_from, back, length_, hit.from, &hit, unused);
         ++totals_.reflections;
-        if (again && again->t_out < tracer_.resolution()) {
+        if (again && again->t_to < tracer_.resolution()) {
             if (totals_.self_hits++ < 3) complain("a reflected ray hits where it starts");
         }
     }
@@ -261,7 +261,7 @@ class RayCheck {
             if ((glm::dot(away, normal) < 0) != is_near) away = -away;
             TraceCounters knowing, unknowing;
             const auto leave = [&](const Hit* start, TraceCounters& counters) {
-                return tracer_.first_crossing(is_near ? hit.p_in : hit.p_out, away, length_,
+                return tracer_.first_crossing(is_near ? hit.p_from : hit.p_to, away, length_,
                                               is_near ? hit.from : hit.to, start, counters);
             };
             const auto known = leave(&hit, knowing), unknown = leave(nullptr, unknowing);
@@ -269,7 +269,7 @@ class RayCheck {
             totals_.batches_unknowing += unknowing.batches;
             ++totals_.departures;
             if (known.has_value() != unknown.has_value() ||
-                (known && std::abs(known->t_in - unknown->t_in) > 4 * tracer_.resolution()))
+                (known && std::abs(known->t_from - unknown->t_from) > 4 * tracer_.resolution()))
                 if (totals_.strayed++ < 3) complain("a ray that leaves an interface strays");
         }
     }

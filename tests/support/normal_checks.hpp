@@ -47,7 +47,7 @@ struct NormalCheck {
 
     /// The normal, unless an edge, or the other side of something thin, is nearer than forty resolutions.
     Verdict verdict() const {
-        const glm::dvec3 expected = growth(glm::dvec3(crossing.p_in), crossing.from);
+        const glm::dvec3 expected = growth(glm::dvec3(crossing.p_from), crossing.from);
         if (glm::length(normal - turned_along(expected)) < tolerance) return Verdict::right;
         return glm::length(expected) > 0 && is_smooth(expected) ? Verdict::wrong : Verdict::by_an_edge;
     }
@@ -68,7 +68,7 @@ struct NormalCheck {
     glm::dvec3 growth(const glm::dvec3& p, Phase phase) const {
         return direction_of_growth(object, p, phase, 0.01 * resolution);
     }
-    glm::dvec3 middle() const { return 0.5 * (glm::dvec3(crossing.p_in) + glm::dvec3(crossing.p_out)); }
+    glm::dvec3 middle() const { return 0.5 * (glm::dvec3(crossing.p_from) + glm::dvec3(crossing.p_to)); }
 
     /// Because of rounding, a ray that creeps along an interface may cross it against its normal, or cross it several
     /// times. The normal that is returned still points along the ray.
@@ -122,7 +122,7 @@ struct NormalTotals {
         if (v != Verdict::wrong || wrong > 5) return;
         const auto text = [](const glm::dvec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x, p.y, p.z); };
         complaints +=
-            fmt::format("\n{}: {} at {} along {}", what, text(c.normal), text(c.crossing.p_in), text(c.direction));
+            fmt::format("\n{}: {} at {} along {}", what, text(c.normal), text(c.crossing.p_from), text(c.direction));
     }
 };
 
@@ -148,7 +148,7 @@ void each_crossing(const InterfaceTracer& tracer, const glm::vec3& origin, const
         const auto c = tracer.first_crossing(start, direction, 0, 1e30f, phase, w);
         if (!c) return;
         hit(*c, direction);
-        start = c->p_out;
+        start = c->p_to;
         phase = c->to;
     }
 }
@@ -166,15 +166,15 @@ void grazing_rays(const Phased& object, const InterfaceTracer& tracer, Random& r
         ray(o, d);
         const auto c = tracer.first_crossing(o, d, 0, 1e30f, tracer.label(o, w), w);
         if (!c) continue;
-        const glm::dvec3 m =
-            direction_of_growth(object, glm::dvec3(c->p_in), c->from, 0.01 * static_cast<double>(tracer.resolution()));
+        const glm::dvec3 m = direction_of_growth(object, glm::dvec3(c->p_from), c->from,
+                                                 0.01 * static_cast<double>(tracer.resolution()));
         const glm::dvec3 along = glm::cross(m, glm::dvec3(rng.direction()));
         if (!(glm::length(along) > 0)) continue;
         for (int k = 0; k < grazing; ++k) {
             const double cosine = rng.chance(0.1) ? 0.0 : static_cast<double>(std::exp2(rng.uniform(-12, -2)));
             const glm::vec3 slanted(glm::normalize(glm::normalize(along) + cosine * m));
             const glm::vec3 jitter = 3e-5f * size * rng.uniform(0, 1) * rng.direction();
-            ray(c->p_in - 0.5f * size * slanted + jitter, slanted);
+            ray(c->p_from - 0.5f * size * slanted + jitter, slanted);
         }
     }
 }

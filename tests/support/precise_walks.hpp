@@ -116,7 +116,7 @@ struct Walk {
     Phase at(double t) const {
         Phase phase = start;
         for (const PreciseCrossing& c : crossings)
-            if (c.t_out <= t) phase = c.to;
+            if (c.t_to <= t) phase = c.to;
         return phase;
     }
 };
@@ -135,11 +135,11 @@ inline Walk restarted(const PreciseTracer& tracer, PreciseRay ray) {
     const double end = ray.t_max;
     double behind = 0;
     while (auto c = tracer.first_crossing(ray)) {
-        ray.origin = c->p_out;
+        ray.origin = c->p_to;
         ray.carried = c->to;
-        c->t_in += behind;
-        c->t_out += behind;
-        behind = c->t_out;
+        c->t_from += behind;
+        c->t_to += behind;
+        behind = c->t_to;
         ray.t_max = end - behind;
         walk.crossings.push_back(*c);
         if (walk.crossings.size() > 100'000) break;
@@ -152,7 +152,7 @@ inline void compare(const Phased& object, const Walk& walk, std::span<const Piec
                     const dvec3& d, double length, const Tolerance& tolerance, Totals& totals) {
     std::vector<double> breaks{0, length};
     for (const Piece& p : exact) breaks.push_back(p.start);
-    for (const PreciseCrossing& c : walk.crossings) breaks.push_back(std::clamp(c.t_out, 0.0, length));
+    for (const PreciseCrossing& c : walk.crossings) breaks.push_back(std::clamp(c.t_to, 0.0, length));
     std::sort(breaks.begin(), breaks.end());
     const auto exact_at = [&](double t) {
         std::size_t i = 0;
@@ -197,23 +197,23 @@ inline void check_brackets(const PreciseTracer& tracer, const Walk& walk, const 
             if (count++ >= 3) return;
             std::ostringstream text;
             text.precision(17);
-            text << what << " from " << int(c.from.index) << " to " << int(c.to.index) << " at " << c.t_in << " … "
-                 << c.t_out << ", " << glm::distance(c.p_in, c.p_out) << " long, with the normal (" << c.normal.x
+            text << what << " from " << int(c.from.index) << " to " << int(c.to.index) << " at " << c.t_from << " … "
+                 << c.t_to << ", " << glm::distance(c.p_from, c.p_to) << " long, with the normal (" << c.normal.x
                  << ", " << c.normal.y << ", " << c.normal.z << ")";
             totals.complain(text.str(), o, d);
         };
-        if (c.from != phase || c.to == c.from || c.t_in < t - 1e-12 * farthest || c.t_out < c.t_in)
+        if (c.from != phase || c.to == c.from || c.t_from < t - 1e-12 * farthest || c.t_to < c.t_from)
             complain("not chained", totals.unchained);
         const PreciseEvaluator& e = tracer.evaluator();
-        if (e.label(c.p_out) != c.to ||
-            (e.label(c.p_in) != c.from && c.t_in != c.t_out && e.component(c.p_in, c.from) > tracer.value_error()))
+        if (e.label(c.p_to) != c.to ||
+            (e.label(c.p_from) != c.from && c.t_from != c.t_to && e.component(c.p_from, c.from) > tracer.value_error()))
             complain("not certified", totals.uncertified);
-        if (glm::distance(c.p_in, c.p_out) > 0x1p-48 * farthest) complain("wide bracket", totals.wide);
+        if (glm::distance(c.p_from, c.p_to) > 0x1p-48 * farthest) complain("wide bracket", totals.wide);
         // Along a face, the angle to the ray is 90° up to rounding errors.
         if (!(std::abs(glm::length(c.normal) - 1) < 1e-9 && glm::dot(c.normal, d) > -1e-14))
             complain("normal", totals.bad_normals);
         phase = c.to;
-        t = c.t_out;
+        t = c.t_to;
     }
 }
 
@@ -242,9 +242,9 @@ inline void compare_isolated(const Phased& object, const Walk& walk, std::span<c
         if (glm::dot(n, d) < 0) n = -n;
         if (!is_smooth(object, o + t * d, n, exact[i - 1].phase, exact[i].phase, 1e-5 * size)) continue;
         for (const PreciseCrossing& c : walk.crossings) {
-            if (std::abs(c.t_out - t) > 0.5 * apart) continue;
+            if (std::abs(c.t_to - t) > 0.5 * apart) continue;
             ++totals.normals;
-            const bool is_off = std::abs(c.t_out - t) > tolerance / cosine;
+            const bool is_off = std::abs(c.t_to - t) > tolerance / cosine;
             const bool is_turned = glm::length(glm::cross(c.normal, n)) > 1e-6 + 1e3 * tolerance / size;
             if ((is_off || is_turned) && totals.bad_normals++ < 3) totals.complain("misplaced or turned", o, d);
         }

@@ -186,17 +186,17 @@ inline Probe random_probe(Random& rng, const Scene& scene, const InterfaceTracer
     along = glm::normalize(along);
     switch (rng.below(3)) {
         case 0:  // starting on an interface
-            return {rng.chance(0.5) ? hit->p_in : hit->p_out, rng.direction(), "from an interface"};
+            return {rng.chance(0.5) ? hit->p_from : hit->p_to, rng.direction(), "from an interface"};
         case 1:  // along it, a little above or below, or upon it
         {
             const float above =
                 rng.chance(0.2) ? 0.f : size * std::exp2(rng.uniform(-24, -10)) * (rng.chance(0.5) ? 1.f : -1.f);
-            return {hit->p_in + above * n - rng.uniform(0, 1) * size * along, along, "grazing"};
+            return {hit->p_from + above * n - rng.uniform(0, 1) * size * along, along, "grazing"};
         }
         default:  // almost along it
         {
             const glm::vec3 slanted = glm::normalize(along + std::exp2(rng.uniform(-16, -3)) * n);
-            return {hit->p_in - rng.uniform(0, 0.5f) * size * slanted, slanted, "slanted"};
+            return {hit->p_from - rng.uniform(0, 0.5f) * size * slanted, slanted, "slanted"};
         }
     }
 }

@@ -58,7 +58,7 @@ class Viewed {
         const auto crossing =
             tracer_.first_crossing(ray.origin, ray.direction, 0, 1e6f, std::nullopt, Evaluator::thread_workspace());
         if (!crossing) return std::nullopt;
-        return InterfacePoint{crossing->to, crossing->from, glm::dvec3(crossing->p_in)};
+        return InterfacePoint{crossing->to, crossing->from, glm::dvec3(crossing->p_from)};
     }
     DragTarget target(const glm::dvec2& from, const glm::dvec2& to, const glm::dvec3& point) const {
         const auto ray = [&](const glm::dvec2& place) {

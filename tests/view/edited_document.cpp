@@ -194,6 +194,18 @@ TEST_CASE("a file that vanishes is reported, and the next change writes it again
     CHECK_FALSE(desk.document().state()->unreadable);
 }
 
+TEST_CASE("saving a text whose file has vanished reports that the file can be read again") {
+    Desk desk(text);
+    fs::remove(desk.file());
+    desk.look();
+    CHECK(desk.changes == 1);
+    desk.document().save();
+    CHECK_FALSE(desk.document().state()->unreadable);
+    CHECK(desk.changes == 2);
+    desk.document().save();
+    CHECK(desk.changes == 2);
+}
+
 TEST_CASE("an older request is applied if it means the same, and is a conflict otherwise") {
     Desk desk(text);
     const std::uint64_t first = desk.version();

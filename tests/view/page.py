@@ -415,10 +415,10 @@ class Page(unittest.TestCase):
 
     def test_planes_of_the_film_are_shown(self):
         layers = self.browser.run("[...document.getElementById('layer').options].map((o) => o.value)")
-        for layer in ("depth", "normal", "position_behind", "phase_entered", "length_glass", "CryptoPhase00", "variance"):
+        for layer in ("depth", "normal", "position_behind", "phase_to", "length_glass", "CryptoPhase00", "variance"):
             self.assertIn(layer, layers)
         last = self.before
-        for layer in ("depth", "normal", "phase_entered", "CryptoPhase00", "length_glass"):
+        for layer in ("depth", "normal", "phase_to", "CryptoPhase00", "length_glass"):
             self.set_input("#layer", layer, "change")
             last = self.wait_for_another(last)
             self.shoot(f"layer-{layer}")

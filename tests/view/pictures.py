@@ -66,7 +66,7 @@ class Pictures(unittest.TestCase):
             _, at = shown("normal")
             for told, wanted in zip(at(64, 32), (127.5, 0, 127.5)):
                 self.assertAlmostEqual(told, wanted, delta=16)
-            _, at = shown("phase_entered")
+            _, at = shown("phase_to")
             self.assertEqual(len({at(64, 32), at(32, 32), at(2, 2)}), 3)
             self.assertEqual(at(2, 2), (0, 0, 0))
             depth, at = shown("depth")

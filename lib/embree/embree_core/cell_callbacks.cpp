@@ -56,7 +56,7 @@ void intersect_cell_for_query(const InterfaceCells& cells, const RTCIntersectFun
     auto& [ray, hit] = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
     const auto crossing = search(cells, *arguments, query, ray);
     if (!crossing) return;
-    const float t = crossing->t_in / query.prepared.length;
+    const float t = crossing->t_from / query.prepared.length;
     const ObjectInstance object = ObjectInstance::of(*arguments->context, arguments->geomID);
     if (!replaces_hit(cells, arguments->primID, object, query.prepared, t, ray.tfar, hit)) return;
     ray.tfar = t;

@@ -85,7 +85,7 @@ void intersect_cell_for_packet(const InterfaceCells& cells, const RTCIntersectFu
         cells, arguments, rays, carried, [&](unsigned i, const Crossing& crossing, const PreparedRay& prepared) {
             float& far = RTCRayN_tfar(rays, n, i);
             // Rounding must not move a hit outside the ray.
-            const float t = std::max(crossing.t_in / prepared.length, std::min(RTCRayN_tnear(rays, n, i), far));
+            const float t = std::max(crossing.t_from / prepared.length, std::min(RTCRayN_tnear(rays, n, i), far));
             const ObjectInstance object = ObjectInstance::of(*arguments.context, arguments.geomID);
             if (!replaces_hit(cells, cell, object, prepared, t, far, rtcGetHitFromHitN(hits, n, i))) return;
             far = t;

@@ -45,8 +45,8 @@ inline std::optional<Crossing> search_cell(const InterfaceCells& cells, unsigned
     crossing = cells.first_crossing(cell, prepared.traced, near, infinity, carried, leaving_hint, counters);
     if (!crossing) return crossing;
     // For a ray that starts at an interface, rounding may put the crossing slightly before the start.
-    crossing->t_in = std::max(crossing->t_in, near);
-    if (!(crossing->t_in / prepared.length <= ray.tfar)) crossing.reset();
+    crossing->t_from = std::max(crossing->t_from, near);
+    if (!(crossing->t_from / prepared.length <= ray.tfar)) crossing.reset();
     return crossing;
 }
 

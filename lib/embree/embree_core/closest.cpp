@@ -141,11 +141,11 @@ class Search {
         const UnitRay ray{point_, glm::vec3(way / length), 0, static_cast<float>(length) + beyond};
         const auto found = object_.first_crossing(ray, std::nullopt);
         if (!found || (opaque_.contains(found->crossing.from) && opaque_.contains(found->crossing.to))) return;
-        const double distance = metric_.distance(found->crossing.p_in);
+        const double distance = metric_.distance(found->crossing.p_from);
         if (distance > upper_ || (best_.found && distance == upper_)) return;
         upper_ = distance;
         best_.found = true;
-        best_.point = found->crossing.p_in;
+        best_.point = found->crossing.p_from;
         best_.here = found->crossing.from;
         best_.there = found->crossing.to;
     }

@@ -13,7 +13,7 @@ LineTracer line_tracer(const CellScene& scene) {
         while (const auto hit = walk.next()) {
             const Crossing& c = hit->crossing;
             found.push_back(
-                {0.5f * (c.t_in + c.t_out), c.from, c.to, scene.cells().normal(hit->cell, c, ray->direction).unit});
+                {0.5f * (c.t_from + c.t_to), c.from, c.to, scene.cells().normal(hit->cell, c, ray->direction).unit});
         }
     };
 }

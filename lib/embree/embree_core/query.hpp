@@ -5,7 +5,7 @@
 
 namespace phasetree::embree {
 
-/// Information about a ray that starts at p_in or p_out of a crossing that was hit, and carries the phase there. With
+/// Information about a ray that starts at p_from or p_to of a crossing that was hit, and carries the phase there. With
 /// it, the cell of that hit usually need not be searched again: most reflected and refracted rays leave the cell and
 /// never come back.
 struct StartHint {

@@ -9,10 +9,10 @@ std::optional<CellScene::Hit> Walk::next() {
         return std::nullopt;
     }
     Crossing& c = found->crossing;
-    const double t_in = base_ + static_cast<double>(c.t_in), t_out = base_ + static_cast<double>(c.t_out);
-    rest_.origin = c.p_out;
+    const double t_from = base_ + static_cast<double>(c.t_from), t_to = base_ + static_cast<double>(c.t_to);
+    rest_.origin = c.p_to;
     rest_.near = 0;
-    base_ = t_out;
+    base_ = t_to;
     carried_ = c.to;
     // Where phases flicker within rounding, crossings may follow each other without end. After 32 within a resolution
     // of `anchor_`, the walk advances by a resolution. If the phase is different there, the next search reports a
@@ -26,8 +26,8 @@ std::optional<CellScene::Hit> Walk::next() {
         base_ += resolution;
     }
     rest_.far = static_cast<float>(far_ - base_);
-    c.t_in = static_cast<float>(t_in);
-    c.t_out = static_cast<float>(t_out);
+    c.t_from = static_cast<float>(t_from);
+    c.t_to = static_cast<float>(t_to);
     return found;
 }
 

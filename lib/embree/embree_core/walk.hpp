@@ -4,7 +4,7 @@
 
 namespace phasetree::embree {
 
-/// Iterates over the crossings along a ray. Each step starts exactly at p_out of the previous crossing, in the phase
+/// Iterates over the crossings along a ray. Each step starts exactly at p_to of the previous crossing, in the phase
 /// entered there.
 class Walk {
   public:

@@ -1,7 +1,8 @@
 // phasetree: multiphase signed distance fields. This header includes the nodes of trees, programs, tracing, cells,
-// carved bounds and meshes. Include separately: phasetree/cells/file.hpp for cell files, phasetree/measuring for
-// volumes and areas, phasetree/glsl/shader.hpp for shaders, phasetree/io for scene files, and
-// phasetree/phasetree_embree.h for Embree geometries.
+// carved bounds and meshes. Include separately: phasetree/cells/file.hpp for cell files,
+// phasetree/trace/precise_tracer.hpp for tracing in double precision, phasetree/measuring for volumes and areas,
+// phasetree/model/preparation_watch.hpp for progress and cancelling, phasetree/glsl/shader.hpp for shaders,
+// phasetree/io for scene files, and phasetree/phasetree_embree.h for Embree geometries.
 #pragma once
 
 #include "phasetree/carving/carve.hpp"

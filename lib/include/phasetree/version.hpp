@@ -7,8 +7,8 @@ namespace phasetree {
 const char* version();
 
 /// The version and a hash of the sources, the compiler and the processor architecture: "0.10.0+3f2a91c04d7e". Cell
-/// files, parts and checkpoints can only be combined if their build_id() is the same, because different builds may
-/// compute different bits.
+/// files, and the part and checkpoint files of the path tracer, can only be combined if their build_id() is the same,
+/// because different builds may compute different bits.
 const char* build_id();
 
 /// The latest commit that changed the sources, for display only and never compared: "8f1d19c6a3b2", "8f1d19c6a3b2 with

@@ -17,9 +17,9 @@ bool is_clear(const ProgramOutput& o, const EnclosedProgram& enclosed) {
 }
 
 // The bounds of the curvature of s, the distance within which the label is constant. There are two definitions of s
-// (Routine::is_by_own). One is minus the label's own component, whose curvature is at most minus the lower bound on
-// that component's curvature. The other is the minimum of the other components, which curves upwards no more than the
-// most curved of them. The definition with the smaller sum of bounds is chosen.
+// (Routine::uses_own_component). One is minus the label's own component, whose curvature is at most minus the lower
+// bound on that component's curvature. The other is the minimum of the other components, which curves upwards no more
+// than the most curved of them. The definition with the smaller sum of bounds is chosen.
 Curvature curvature_of_distance(const EnclosedProgram& enclosed) {
     const std::span<const ProgramOutput> outputs = enclosed.program.outputs;
     // Index 0 is for rays in the phase of the first output, 1 for rays in any other. `by_others` bounds the curvature
@@ -39,14 +39,15 @@ Curvature curvature_of_distance(const EnclosedProgram& enclosed) {
     };
     const bool is_shared = outputs.size() == 2 && outputs[0].value == outputs[1].value;
     Curvature result;
-    result.is_by_own = by_own[0] + by_own[1] < by_others[0] + by_others[1];
-    for (std::size_t i = 0; i < 2; ++i) result.bound[i] = rounded_up(result.is_by_own ? by_own[i] : by_others[i]);
-    result.is_by_first = is_shared || std::ranges::none_of(outputs.subspan(1), [&](const ProgramOutput& o) {
-                             return is_clear(o, enclosed);
-                         });
+    result.uses_own_component = by_own[0] + by_own[1] < by_others[0] + by_others[1];
+    for (std::size_t i = 0; i < 2; ++i)
+        result.bound[i] = rounded_up(result.uses_own_component ? by_own[i] : by_others[i]);
+    result.first_component_decides = is_shared || std::ranges::none_of(outputs.subspan(1), [&](const ProgramOutput& o) {
+                                         return is_clear(o, enclosed);
+                                     });
     if (!is_shared) result.bound[0] = rounded_up(by_own[0]);  // In the first phase, s is minus the first component.
     // Where the first component alone determines where rays may be, it is s in the other phases.
-    if (result.is_by_first) result.bound[1] = rounded_up(of_first);
+    if (result.first_component_decides) result.bound[1] = rounded_up(of_first);
     return result;
 }
 
@@ -90,7 +91,8 @@ InterfaceBounds interface_bounds(const EnclosedProgram& enclosed, Arena& scratch
     result.bound = linear_bound(linear, f, enclosed);
     result.box = enclosed.box;
     // If all other phases are opaque, rays can only meet zeros of the first component.
-    if (result.curvature.is_by_first) result.box = box_around_interface(linear, result.bound, enclosed, scratch);
+    if (result.curvature.first_component_decides)
+        result.box = box_around_interface(linear, result.bound, enclosed, scratch);
     if (result.box.empty()) return result;
 
     const bool is_shared = outputs.size() == 2 && outputs[0].value == outputs[1].value;

@@ -23,7 +23,7 @@ struct CellBuffer {
         LinearBound bound;
         Curvature curvature;
         std::uint32_t first_instruction = 0, instructions = 0;
-        std::uint32_t leading = 0;  ///< the number of instructions that compute the first component (Routine::leading)
+        std::uint32_t first_component_steps = 0;  ///< Routine::first_component_steps
         std::uint32_t first_output = 0, outputs = 0;
         std::uint32_t first_certificate_step = 0, certificate_steps = 0;
     };

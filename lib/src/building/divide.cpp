@@ -63,13 +63,13 @@ CellCosts add_cell(const BuildNode& node, Worker& worker) {
         ordered = first_component_first(program, worker.arenas());
         // If the first component takes nearly all of the work, as in a neural field, rays evaluate the whole program at
         // once and so know their labels.
-        if (cell.work.all < 1.03f * cell.work.first) ordered.leading = narrow(program.code.size() - 1);
+        if (cell.work.all < 1.03f * cell.work.first) ordered.prefix = narrow(program.code.size() - 1);
     }
     const std::span<CertificateStep> certificate = worker.scratch.copy(cell.certificate);
     if (!ordered.renumbered.empty())
         for (CertificateStep& step : certificate) step.value = ordered.renumbered[step.value];
     CellBuffer::Cell found{cell.facts.box, cell.facts.bound, cell.facts.curvature};
-    found.leading = ordered.leading;
+    found.first_component_steps = ordered.prefix;
     cells.add(found, ordered.program, certificate, cell.faces);
     worker.account.add(CellBuffer::bytes(before, cells.mark()), worker.pool.budget());
     return {cell.cost, interface_area(cell.facts.box)};

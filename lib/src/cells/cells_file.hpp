@@ -17,11 +17,11 @@ struct BuildSettings {
     std::size_t max_bytes = 0;  ///< the memory limit in effect, whether given or the default
 };
 
-/// Gives the reader, writer and comparison of cell files access to the parts of InterfaceCells that they need.
+/// Access to the parts of InterfaceCells that read_cells(), write_cells() and are_cells_of() need.
 struct CellsFile {
     struct Contents {
         const CellTables& tables;
-        const Program& program;  ///< followed by the cells' own constants
+        const Program& program;  ///< with the constants that the cells add after its own
         BuildSettings settings;
     };
     static Contents contents(const InterfaceCells&);

@@ -19,7 +19,7 @@ class CurvatureCode {
     explicit CurvatureCode(float diagonal = 1) : diagonal_(diagonal), inverse_diagonal_(1 / diagonal) {}
 
     std::uint8_t encode(float curvature) const {
-        if (!(curvature > 0)) return 0;
+        if (curvature <= 0) return 0;  // NaN becomes unknown
         const std::uint32_t bits = std::bit_cast<std::uint32_t>(curvature * diagonal_ * (1 + 1e-6f));
         const std::uint32_t rounded_up = (bits + ((1u << dropped_bits) - 1)) >> dropped_bits;
         if (rounded_up >= smallest + 254) return unknown;

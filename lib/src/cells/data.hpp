@@ -33,8 +33,8 @@ struct InterfaceCells::Data : cells::CellTables {
 
     kernel::Routine routine(const Cell& c) const {
         kernel::Routine r = routines.routine(routines.shapes[c.shape], c.first_data, whole->program().constants.data());
-        r.is_by_own = c.is_by_own;
-        r.is_by_first = c.is_by_first;
+        r.uses_own_component = c.uses_own_component;
+        r.first_component_decides = c.first_component_decides;
         return r;
     }
     /// The faces of a cell that has any.

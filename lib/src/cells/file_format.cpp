@@ -23,7 +23,8 @@ std::array<char, 24> as_chars(std::string_view text) {
 }
 
 // A hash of everything that determines what the tables mean: the list of operations with their numbers of floats, and
-// the constants on which steps and registers depend.
+// the constants on which steps and registers depend. Operations from first_placed on are primitives fused with an
+// affine map, a scale and an offset (program/fused.hpp).
 std::uint64_t layout_of_tables() {
     Checksum sum;
     const auto put = [&](std::uint64_t n) { sum.put(&n, sizeof n); };
@@ -41,7 +42,7 @@ std::uint64_t layout_of_tables() {
 }
 
 // A hash of an object as recorded, with only its own constants.
-std::uint64_t fingerprint(const Program& program, std::size_t own_constants) {
+std::uint64_t fingerprint(const Program& program, std::size_t recorded_constants) {
     Checksum sum;
     for (const Instruction& in : program.instructions) {
         const std::array<std::uint32_t, 4> words{static_cast<std::uint32_t>(in.op), in.a, in.b, in.data};
@@ -51,7 +52,7 @@ std::uint64_t fingerprint(const Program& program, std::size_t own_constants) {
         const std::array<std::uint32_t, 2> words{o.phase.index, o.value};
         sum.put(words.data(), sizeof words);
     }
-    sum.put(program.constants.data(), own_constants * sizeof(float));
+    sum.put(program.constants.data(), recorded_constants * sizeof(float));
     sum.put(program.lipschitz.data(), program.lipschitz.size() * sizeof(float));
     return sum.get();
 }
@@ -66,7 +67,7 @@ StoredCell StoredCell::of(const InterfaceCell& c) {
             c.curvature,
             c.other_curvature,
             c.first_phase,
-            static_cast<std::uint8_t>((c.is_by_own ? by_own : 0) | (c.is_by_first ? by_first : 0)),
+            static_cast<std::uint8_t>((c.uses_own_component ? by_own : 0) | (c.first_component_decides ? by_first : 0)),
             0};
 }
 
@@ -101,7 +102,7 @@ std::string as_text(const std::array<char, 24>& chars) {
     return text;
 }
 
-CellsFileHeader header_of(const Program& program, std::size_t own_constants, const BuildSettings& settings) {
+CellsFileHeader header_of(const Program& program, std::size_t recorded_constants, const BuildSettings& settings) {
     CellsFileHeader h{};
     h.magic = CellsFileHeader::known_magic;
     h.format = CellsFileHeader::known_format;
@@ -109,7 +110,7 @@ CellsFileHeader header_of(const Program& program, std::size_t own_constants, con
     h.library = as_chars(build_id());
     h.machine = as_chars(machine());
     h.layout = layout_of_tables();
-    h.program = fingerprint(program, own_constants);
+    h.program = fingerprint(program, recorded_constants);
     h.opaque = settings.opaque.bits;
     h.max_bytes = settings.max_bytes;
     h.resolution = settings.resolution;

@@ -14,16 +14,17 @@ void add_cells(const CellBuffer& buffer, const CurvatureCode& code, RoutineBuild
     for (const CellBuffer::Cell& c : buffer.cells) {
         const RoutineBuilder::BuiltRoutine& r = routines.add(buffer, c);
         // The linear bound describes the first component, so it only helps rays that evaluate this component alone.
-        const bool is_bound_of_use = c.outputs == 2 || routines.tables.shapes[r.shape].leading > 0;
+        const bool is_bound_of_use = c.outputs == 2 || routines.tables.shapes[r.shape].first_component_steps > 0;
         tables.cells.push_back({c.box, is_bound_of_use ? c.bound : LinearBound{}, r.shape, r.first_data,
                                 code.encode(c.curvature.bound[0]), code.encode(c.curvature.bound[1]),
-                                buffer.outputs_of(c)[0].phase.index, c.curvature.is_by_own, c.curvature.is_by_first});
+                                buffer.outputs_of(c)[0].phase.index, c.curvature.uses_own_component,
+                                c.curvature.first_component_decides});
         tables.first_certificate.push_back(narrow(tables.certificates.size()));
         routines.pack_certificate(r, buffer.certificate_of(c), tables.certificates);
     }
 }
 
-// Adds the faces of a buffer's cells, which have been added last.
+// Adds the faces of a buffer's cells. These cells must be the last ones in the table.
 void add_faces(const CellBuffer& buffer, CellTables& tables) {
     if (buffer.cell_faces.empty()) return;
     const std::size_t before = tables.cells.size() - buffer.cells.size();
@@ -49,8 +50,8 @@ CellTables make_tables(CellBuffers found, std::vector<float>& constants, const C
     RoutineBuilder routines(constants);
     tables.cells.reserve(found.cells());
     tables.first_certificate.reserve(found.cells() + 1);
-    // At most, all data of specialised instructions are appended. Reserve now: a growing vector holds its contents
-    // twice for a while.
+    // Most of what is appended are the data of specialised instructions (rewriting/specialise.hpp). Reserve now: a
+    // growing vector holds its contents twice for a while.
     std::size_t more = 0;
     for (const CellBuffer& buffer : found) more += buffer.specialised_data.size();
     constants.reserve(constants.size() + more);

@@ -9,7 +9,9 @@
 namespace phasetree::cells {
 
 /// Makes the tables of the cells found by a build. Cells with equal programs share a routine. Appends the constants of
-/// fused instructions to `constants`. The caller sets `recorded_constants` and `is_coarser`. Throws BuildCancelled.
+/// fused instructions and the data of specialised ones to `constants`. (Fused: rewriting/fuse.hpp. Specialised:
+/// primitives reduced to the data that matter in one cell, rewriting/specialise.hpp.) The caller sets
+/// `recorded_constants` and `is_coarser`. Throws BuildCancelled.
 CellTables make_tables(building::CellBuffers, std::vector<float>& constants, const CurvatureCode&,
                        const std::function<bool()>& cancelled);
 

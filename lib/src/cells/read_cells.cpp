@@ -115,13 +115,16 @@ class CellsReader {
                                       as_text(h.library), as_text(wanted.library)));
         if (h.machine != wanted.machine)
             throw differs(fmt::format("it was written for {}, but this is {}", as_text(h.machine), machine()));
-        if (h.layout != wanted.layout) throw differs("it was written by a library with other nodes");
+        if (h.layout != wanted.layout)
+            throw differs(
+                "it was written by a build of the library with a different list of nodes; write the cells again");
         if (h.program != wanted.program) throw differs("its cells belong to another tree");
         if (h.resolution != wanted.resolution)
             throw differs(fmt::format("its cells have resolution {}, not {}", h.resolution, wanted.resolution));
         if (h.quality != wanted.quality) throw differs("its cells were built with another quality");
         if (h.max_depth != wanted.max_depth)
-            throw differs(fmt::format("its cells were built with {} divisions, not {}", h.max_depth, wanted.max_depth));
+            throw differs(
+                fmt::format("its cells were built with at most {} divisions, not {}", h.max_depth, wanted.max_depth));
         if (h.opaque != wanted.opaque) throw differs("its cells were built with other phases opaque");
         // If the cells are not coarser, the limit had no effect, and any higher limit gives the same cells.
         if (h.is_coarser ? h.max_bytes != wanted.max_bytes : h.max_bytes > wanted.max_bytes)
@@ -136,7 +139,7 @@ class CellsReader {
                 throw error(Reason::damaged, "it is damaged: it ends too early");
             rest -= h.counts[i] * item_bytes[i];
         }
-        if (rest != 0) throw error(Reason::damaged, "it is damaged: there are data after its end");
+        if (rest != 0) throw error(Reason::damaged, "it is damaged: it is longer than its header says");
     }
 
     const fs::path& path_;

@@ -63,7 +63,7 @@ void RoutineTables::shrink_to_fit() {
 }
 
 RoutineBuilder::Key RoutineBuilder::key_of(const CellBuffer& buffer, const CellBuffer::Cell& cell) {
-    std::uint64_t hash = cell.leading;
+    std::uint64_t hash = cell.first_component_steps;
     const auto put = [&](std::uint64_t word) { hash = support::mixed(hash, word); };
     for (const Instruction& in : buffer.code_of(cell)) {
         put(as_one_word(static_cast<std::uint32_t>(in.op), in.data));
@@ -81,7 +81,7 @@ bool RoutineBuilder::Key::operator==(const Key& other) const {
     const auto are_equal = [](const auto& a, const auto& b) {
         return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return is_equal(x, y); });
     };
-    return hash == other.hash && cell->leading == other.cell->leading &&
+    return hash == other.hash && cell->first_component_steps == other.cell->first_component_steps &&
            are_equal(buffer->code_of(*cell), other.buffer->code_of(*other.cell)) &&
            are_equal(buffer->outputs_of(*cell), other.buffer->outputs_of(*other.cell)) &&
            has_equal_values(buffer->certificate_of(*cell), other.buffer->certificate_of(*other.cell));
@@ -105,7 +105,8 @@ const RoutineBuilder::BuiltRoutine& RoutineBuilder::add(const CellBuffer& buffer
 }
 
 RoutineBuilder::BuiltRoutine RoutineBuilder::build(const CellBuffer& buffer, const CellBuffer::Cell& cell) {
-    const Fuser::Fused& fused = fuse_(buffer.code_of(cell), buffer.outputs_of(cell), kept_values_, cell.leading);
+    const Fuser::Fused& fused =
+        fuse_(buffer.code_of(cell), buffer.outputs_of(cell), kept_values_, cell.first_component_steps);
     std::vector<ProgramOutput> outputs;
     for (ProgramOutput o : buffer.outputs_of(cell)) {
         o.value = fused.renumbered[o.value];
@@ -114,7 +115,7 @@ RoutineBuilder::BuiltRoutine RoutineBuilder::build(const CellBuffer& buffer, con
     std::vector<KeptValue> kept;
     for (const std::uint32_t v : kept_values_) kept.push_back({fused.renumbered[v]});
     const Assembly assembly = assemble(fused.code, outputs, kept);
-    const BuiltRoutine built{intern_shape(assembly, fused.leading), narrow(tables.data.size()),
+    const BuiltRoutine built{intern_shape(assembly, fused.prefix), narrow(tables.data.size()),
                              narrow(kept_slots_.size())};
     tables.data.insert(tables.data.end(), assembly.data.begin(), assembly.data.end());
     for (const KeptValue& k : kept) kept_slots_.push_back(k.slot);
@@ -122,8 +123,8 @@ RoutineBuilder::BuiltRoutine RoutineBuilder::build(const CellBuffer& buffer, con
 }
 
 // The index of this shape in the table. Appends it unless an equal shape exists.
-std::uint32_t RoutineBuilder::intern_shape(const Assembly& assembly, std::uint32_t leading) {
-    std::uint64_t hash = leading;
+std::uint32_t RoutineBuilder::intern_shape(const Assembly& assembly, std::uint32_t first_component_steps) {
+    std::uint64_t hash = first_component_steps;
     const auto put = [&](std::uint64_t word) { hash = support::mixed(hash, word); };
     for (const Step& s : assembly.steps) {
         put(as_one_word(s.op, s.to));
@@ -134,7 +135,7 @@ std::uint32_t RoutineBuilder::intern_shape(const Assembly& assembly, std::uint32
         put(std::bit_cast<std::uint32_t>(o.sign));
     }
     const auto is_equal_shape = [&](const RoutineTables::Shape& s) {
-        return s.leading == leading && s.slots == assembly.slots &&
+        return s.first_component_steps == first_component_steps && s.slots == assembly.slots &&
                std::ranges::equal(std::span(tables.steps).subspan(s.first_step, s.steps), assembly.steps) &&
                std::ranges::equal(std::span(tables.outputs).subspan(s.first_output, s.outputs), assembly.outputs);
     };
@@ -142,7 +143,7 @@ std::uint32_t RoutineBuilder::intern_shape(const Assembly& assembly, std::uint32
     for (auto known = first; known != end; ++known)
         if (is_equal_shape(tables.shapes[known->second])) return known->second;
     const std::uint32_t shape = narrow(tables.shapes.size());
-    tables.shapes.push_back({narrow(tables.steps.size()), narrow(assembly.steps.size()), leading,
+    tables.shapes.push_back({narrow(tables.steps.size()), narrow(assembly.steps.size()), first_component_steps,
                              narrow(tables.outputs.size()), narrow(assembly.outputs.size()), assembly.slots});
     tables.steps.insert(tables.steps.end(), assembly.steps.begin(), assembly.steps.end());
     tables.outputs.insert(tables.outputs.end(), assembly.outputs.begin(), assembly.outputs.end());

@@ -19,9 +19,10 @@ using rewriting::Fuser;
 /// The routines of all cells. Routines that differ only in the location of their constants share a shape, so that all
 /// shapes fit in the processor's caches.
 struct RoutineTables {
-    /// A routine without its constants: ranges of the vectors below.
+    /// A routine without its constants: ranges of the vectors below, and the number of steps that compute the first
+    /// component alone.
     struct Shape {
-        std::uint32_t first_step, steps, leading, first_output, outputs, slots;
+        std::uint32_t first_step, steps, first_component_steps, first_output, outputs, slots;
     };
     std::vector<Shape> shapes;
     std::vector<Step> steps;
@@ -35,7 +36,7 @@ struct RoutineTables {
                   s.steps,
                   outputs.data() + s.first_output,
                   s.outputs};
-        r.leading = s.leading;
+        r.first_component_steps = s.first_component_steps;
         return r;
     }
     std::size_t bytes() const;
@@ -55,8 +56,8 @@ class RoutineBuilder {
         /// the leaves.
         std::uint32_t first_kept;
     };
-    /// Turns the data of specialised instructions into constants. Call it once per buffer, before adding the cells in
-    /// it.
+    /// Turns the data of specialised instructions (rewriting/specialise.hpp) into constants. Call it once per buffer,
+    /// before adding the cells in it.
     void intern_specialised_data(CellBuffer&);
     /// The routine of a cell. The buffer must not move or be destroyed while cells are being added.
     const BuiltRoutine& add(const CellBuffer&, const CellBuffer::Cell&);
@@ -70,7 +71,7 @@ class RoutineBuilder {
 
   private:
     BuiltRoutine build(const CellBuffer&, const CellBuffer::Cell&);
-    std::uint32_t intern_shape(const Assembly&, std::uint32_t leading);
+    std::uint32_t intern_shape(const Assembly&, std::uint32_t first_component_steps);
 
     /// The program of a cell, with the values that its certificate needs.
     struct Key {

@@ -16,7 +16,7 @@ bool are_same(std::span<const float> a, std::span<const float> b) {
 }
 
 // Whether a recorded program equals the program of cells, which have appended their constants to it.
-bool is_program_of(const Program& recorded, const Program& of_cells, std::size_t own_constants) {
+bool is_program_of(const Program& recorded, const Program& of_cells, std::size_t recorded_constants) {
     const auto same_instruction = [](const Instruction& a, const Instruction& b) {
         return a.op == b.op && a.a == b.a && a.b == b.b && a.data == b.data;
     };
@@ -24,7 +24,7 @@ bool is_program_of(const Program& recorded, const Program& of_cells, std::size_t
     return std::ranges::equal(recorded.instructions, of_cells.instructions, same_instruction) &&
            std::ranges::equal(recorded.outputs, of_cells.outputs, same_output) &&
            are_same(recorded.lipschitz, of_cells.lipschitz) &&
-           are_same(recorded.constants, std::span(of_cells.constants).first(own_constants));
+           are_same(recorded.constants, std::span(of_cells.constants).first(recorded_constants));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The search for a change of phase along a ray within one cell. It runs for every cell that a ray meets, so everything
-// between the caller and the kernel is a single function.
+// The search for a change of phase along a ray within one cell. It runs for every cell that a ray meets, so this file's
+// helpers are inlined into one function.
 #include "cells/data.hpp"
 #include "evaluation/target.hpp"
 #include "trace/march.hpp"
@@ -47,7 +47,7 @@ inline std::optional<Crossing> InterfaceCells::Data::first_crossing(std::size_t 
         if (answer == FaceAnswer::none) return std::nullopt;
         if (answer == FaceAnswer::none_if_in_phase && starts_in_phase(c, search, counters)) return std::nullopt;
     }
-    // Prefetch these now: they are needed only after the ray is clipped.
+    // Prefetch these here, so that they arrive while the ray is being clipped.
     __builtin_prefetch(r.data);
     __builtin_prefetch(r.data + r.count);
     if (needs_certificate(c, r, search.carried)) {

@@ -21,7 +21,8 @@ constexpr std::uint32_t first_primitive = static_cast<std::uint32_t>(Op::first_p
 constexpr std::uint32_t first_data_primitive = first_primitive + static_cast<std::uint32_t>(Primitives::size);
 constexpr std::uint32_t operations = first_placed + static_cast<std::uint32_t>(Primitives::size);
 
-// The number of constants of each operation. It is 0 for a primitive with data, whose data contain the number.
+// The number of constants of each operation. It is 0 for a primitive with data, whose data contain the number. A
+// "placed" primitive is fused with an affine map, a scale and an offset (program/fused.hpp).
 std::array<std::size_t, operations> all_floats() {
     std::array<std::size_t, operations> all{};
     for (std::uint32_t op = 0; op < first_primitive; ++op) all[op] = has_constant(static_cast<Op>(op)) ? 1 : 0;
@@ -93,8 +94,8 @@ class Validation {
         const OpTraits& t = traits(static_cast<Op>(s.op));
         const bool takes_point = s.op >= first_primitive;
         const std::uint32_t size = t.gives_point ? 3 : 1;
-        // Slot 0 replaces an operand that the operation does not take. It always counts as written, because it holds
-        // the input.
+        // A step that takes fewer operands refers to slot 0 for the others. Slot 0 always counts as written, because it
+        // holds the input.
         if (!is_written(s.a, takes_point ? 3 : 1) || !is_written(s.b, 1)) return false;
         if (s.op >= first_placed && traits(static_cast<Op>(s.op - first_placed + first_primitive)).is_long_primitive)
             return false;
@@ -108,7 +109,7 @@ class Validation {
             return false;
         // The input takes three slots, and each step writes at most three. More slots would never be written, but a
         // damaged file could demand a lot of memory with them.
-        if (s.slots < 3 || s.slots > 3 + 3 * std::uint64_t{s.steps} || s.leading > s.steps) return false;
+        if (s.slots < 3 || s.slots > 3 + 3 * std::uint64_t{s.steps} || s.first_component_steps > s.steps) return false;
         if (s.outputs == 0 || s.outputs > Phase::capacity) return false;
         written_.assign(s.slots, 0);
         std::fill_n(written_.begin(), 3, char{1});
@@ -129,8 +130,8 @@ class Validation {
         return true;
     }
     // Whether an operation finds its constants at an index. The length of a primitive with data depends on the data
-    // themselves. So a specialised primitive checks its own data. Any other primitive may only refer to the data of the
-    // same primitive in the object's program, which are complete.
+    // themselves. So a specialised primitive (rewriting/specialise.hpp) checks its own data. Any other primitive may
+    // only refer to the data of the same primitive in the object's program, which are complete.
     bool has_constants(std::uint32_t op, std::uint32_t at) const {
         static const auto floats = all_floats();
         if (!fits(at, floats[op], constants_.size())) return false;

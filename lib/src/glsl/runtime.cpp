@@ -168,7 +168,7 @@ int phasetree_label(vec3 p) {
 
 struct PhasetreeCrossing {
     bool found;
-    float t_in, t_out;  // the ends of the bracket: still in `from`, and already in `to`
+    float t_from, t_to;  // the ends of the bracket: still in `from`, and already in `to`
     int from, to;       // phases
     vec3 normal;        // out of `from`
 };
@@ -180,8 +180,8 @@ struct PhasetreeCrossing {
 
 // The first change of phase along origin + t * direction (of length 1) between t_min and t_max, for a ray that is in
 // the phase `carried` at t_min. If `carried` is -1, the phase at t_min is determined first; it is `from` in the result.
-// Start a reflected ray at t_in in the phase `from`, and a refracted ray at t_out in the phase `to`. The loop evaluates
-// the object in a single place, because compilers inline every call.
+// Start a reflected ray at t_from in the phase `from`, and a refracted ray at t_to in the phase `to`. The loop
+// evaluates the object in a single place, because compilers inline every call.
 PhasetreeCrossing phasetree_trace(vec3 origin, vec3 direction, float t_min, float t_max, int carried) {
     PhasetreeCrossing crossing = PhasetreeCrossing(false, t_max, t_max, carried, carried, -direction);
     // Outside the bounds, everything is vacuum.

@@ -66,13 +66,13 @@ struct Routine {
     /// Which lower bound s of the distance to a change of label is used where each component has its own value. If
     /// true, s is minus the component of the label; if false, the smallest of the other components, which is at least
     /// as large.
-    bool is_by_own = false;
+    bool uses_own_component = false;
     /// Whether the first component alone determines where rays may be. This is so if there are two phases, or if all
     /// phases other than the first are opaque, so that no ray is in them.
-    bool is_by_first = false;
-    /// The first `leading` steps compute the first component, which is all that a ray in its phase needs; 0 if no such
-    /// number exists.
-    std::size_t leading = 0;
+    bool first_component_decides = false;
+    /// The number of steps at the beginning that compute the first component, which is all that a ray in its phase
+    /// needs; 0 if no such number exists.
+    std::size_t first_component_steps = 0;
     /// A certificate that the first component stays negative, used where its curvature is unknown; null if there is
     /// none.
     const PackedCertificateStep* certificate = nullptr;
@@ -108,10 +108,10 @@ struct Visit {
 struct RayCrossing {
     double start;                     ///< the distance along the ray of the point where the search began
     float origin[3];                  ///< that point
-    float t_in, t_out;                ///< distances from that point
+    float t_from, t_to;               ///< distances from that point
     float from, to;                   ///< phases
     std::uint32_t batches, phantoms;  ///< see TraceCounters
-    /// The search is unfinished: there is no change before t_in, which is in the phase `from`. See trace/creep.hpp.
+    /// The search is unfinished: there is no change before t_from, which is in the phase `from`. See trace/creep.hpp.
     bool is_unfinished;
     float length;  ///< of the segment that is searched
 };

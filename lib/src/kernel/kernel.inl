@@ -166,7 +166,7 @@ HWY_INLINE void set_points(const Batch& x, const Batch& y, const Batch& z, float
 // What a batch of samples says about each point. The kernel's s(p), a lower bound on the distance to a change of label,
 // is one of these:
 //  - the second smallest component;
-//  - minus the smallest component, which is no larger (Routine::is_by_own);
+//  - minus the smallest component, which is no larger (Routine::uses_own_component);
 //  - the absolute value of the first component, if that alone was evaluated.
 struct Classified {
     Batch label;     // the phase of the smallest component
@@ -192,8 +192,8 @@ HWY_INLINE Classified classify_first(const Routine& routine, float* registers) {
     return {select(less(first, zero), Batch(routine.outputs[0].phase), Batch(another_phase)), max(first, -first)};
 }
 
-// Label and distance from all components. For `is_by_own`, see Routine.
-HWY_INLINE Classified classify(const Routine& routine, bool is_by_own, float* registers) {
+// Label and distance from all components. For `uses_own_component`, see Routine.
+HWY_INLINE Classified classify(const Routine& routine, bool uses_own_component, float* registers) {
     Batch lowest = component(routine, 0, registers);
     if (is_shared(routine)) {
         const Batch other = -lowest;
@@ -209,7 +209,7 @@ HWY_INLINE Classified classify(const Routine& routine, bool is_by_own, float* re
         phase = select(lower, Batch(routine.outputs[i].phase), phase);
         lowest = min(v, lowest);
     }
-    return {phase, is_by_own ? -lowest : second};
+    return {phase, uses_own_component ? -lowest : second};
 }
 
 // Stores the points o + t·d of a ray in slots 0 … 2.
@@ -230,7 +230,7 @@ void sample(const Routine& routine, const float* x, const float* y, const float*
             float* distance) {
     set_points(load(x), load(y), load(z), registers);
     run(routine, routine.count, registers);
-    const Classified c = classify(routine, routine.is_by_own, registers);
+    const Classified c = classify(routine, routine.uses_own_component, registers);
     store(c.label, label);
     store(c.distance, distance);
 }
@@ -239,7 +239,7 @@ void sample_ray(const Routine& routine, const float* o, const float* d, const fl
                 float* distance) {
     set_points_along(o, d, load(t), registers);
     run(routine, routine.count, registers);
-    const Classified c = classify(routine, routine.is_by_own, registers);
+    const Classified c = classify(routine, routine.uses_own_component, registers);
     store(c.label, label);
     store(c.distance, distance);
 }

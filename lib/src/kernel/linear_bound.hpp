@@ -21,7 +21,7 @@ struct LinearBound {
 
 /// An upper bound on d²s/dt² along any straight line of unit speed in a cell, where s is the kernel's lower bound on
 /// the distance to a change of label. No such bound exists where the slope jumps upwards. A cell with more than one
-/// component can use either of two definitions of s: see Routine::is_by_own.
+/// component can use either of two definitions of s: see Routine::uses_own_component.
 struct Curvature {
     static constexpr float unknown = Bounds::infinity;
 
@@ -29,8 +29,8 @@ struct Curvature {
     /// whole cell, on both sides of the interface. For a ray in the first phase, s is minus the first component if more
     /// than two phases meet. If all other phases are opaque, so that no ray is in them, s is the first component there.
     std::array<float, 2> bound{unknown, unknown};
-    bool is_by_own = false;    ///< Routine::is_by_own in the other phases
-    bool is_by_first = false;  ///< whether the first component gives s in all phases
+    bool uses_own_component = false;       ///< Routine::uses_own_component in the other phases
+    bool first_component_decides = false;  ///< whether the first component gives s in all phases
 };
 
 }  // namespace phasetree::kernel

@@ -24,8 +24,9 @@ class March {
         : routine_(routine),
           ray_(ray),
           registers_(registers),
-          is_first_enough_(routine.leading > 0 && routine.outputs[0].phase == ray.carried),
-          is_by_own_(is_first_enough_ || routine.is_by_own) {}  // both take the distance from the phase's own component
+          is_first_enough_(routine.first_component_steps > 0 && routine.outputs[0].phase == ray.carried),
+          // Both take the distance from the phase's own component.
+          uses_own_component_(is_first_enough_ || routine.uses_own_component) {}
 
     // Searches for the first crossing and counts the work. Returns whether there is one.
     bool search(RayCrossing& crossing) {
@@ -47,11 +48,11 @@ class March {
     // Samples the ray. If the first component is enough, only that is evaluated, and each label is either the ray's
     // phase or another_phase. `is_whole` requests all components.
     HWY_INLINE Classified sample(const Batch& t, bool is_whole = false) {
-        const bool by_first = is_first_enough_ && !is_whole && routine_.leading < routine_.count;
+        const bool by_first = is_first_enough_ && !is_whole && routine_.first_component_steps < routine_.count;
         ++batches_;
         set_points_along(ray_.origin, ray_.direction, t, registers_);
-        run(routine_, by_first ? routine_.leading : routine_.count, registers_);
-        return by_first ? classify_first(routine_, registers_) : classify(routine_, is_by_own_, registers_);
+        run(routine_, by_first ? routine_.first_component_steps : routine_.count, registers_);
+        return by_first ? classify_first(routine_, registers_) : classify(routine_, uses_own_component_, registers_);
     }
     HWY_INLINE Classified sample_whole(const Batch& t) { return sample(t, true); }
 
@@ -152,16 +153,16 @@ class March {
     // Leaves the search unfinished. It can resume from the last sample that is certainly in the ray's phase.
     bool pause(RayCrossing& c) const {
         c.is_unfinished = true;
-        c.t_in = certain_.t;
+        c.t_from = certain_.t;
         c.from = phase_;
         return false;
     }
     // Distances below this, a sixteenth of the resolution, are treated as rounding errors.
     float rounding_error() const { return ray_.resolution * (1.f / 16); }
 
-    bool report(RayCrossing& c, float t_in, float t_out, float to) const {
-        c.t_in = t_in;
-        c.t_out = t_out;
+    bool report(RayCrossing& c, float t_from, float t_to, float to) const {
+        c.t_from = t_from;
+        c.t_to = t_to;
         c.from = phase_;
         c.to = to;
         return true;
@@ -177,8 +178,8 @@ class March {
     const Routine& routine_;
     const RaySegment& ray_;
     float* registers_;
-    bool is_first_enough_;  // the first component alone determines where the ray leaves its phase
-    bool is_by_own_;        // as Routine::is_by_own
+    bool is_first_enough_;     // the first component alone determines where the ray leaves its phase
+    bool uses_own_component_;  // as Routine::uses_own_component
     std::uint32_t batches_ = 0, phantoms_ = 0;
     float phase_ = 0;
     float half_curvature_ = 0;        // half the curvature bound of the distance in the ray's phase
@@ -231,11 +232,11 @@ HWY_INLINE bool March::start(Frame& f) {
             continue;
         }
         half_curvature_ = 0.5f * ray_.curvature[routine_.outputs[0].phase == phase_ ? 0 : 1];
-        is_curvature_known_ = half_curvature_ < 1e30f &&
-                              (routine_.outputs[0].phase != phase_ || routine_.output_count == 2 || is_by_own_);
+        is_curvature_known_ = half_curvature_ < 1e30f && (routine_.outputs[0].phase != phase_ ||
+                                                          routine_.output_count == 2 || uses_own_component_);
         other_half_curvature_ = 0.5f * ray_.curvature[routine_.outputs[0].phase == phase_ ? 1 : 0];
         can_locate_ = is_curvature_known_ && other_half_curvature_ < 1e30f &&
-                      (is_shared(routine_) || (is_first_enough_ && routine_.is_by_first));
+                      (is_shared(routine_) || (is_first_enough_ && routine_.first_component_decides));
         has_certificate_ = !is_curvature_known_ && routine_.certificate_steps > 0 &&
                            (routine_.outputs[0].phase == phase_ || is_shared(routine_));
         other_.label = no_label;

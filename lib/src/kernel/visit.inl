@@ -68,7 +68,8 @@ class Approach {
 
     // Moves the start of a ray that leaves an interface to the earliest point where the ray can return to it.
     HWY_INLINE bool leave_interface() {
-        if (!(is_leaving_ && on_interface_ && visit_.rise > least_rise && routine_.is_by_first)) return true;
+        if (!(is_leaving_ && on_interface_ && visit_.rise > least_rise && routine_.first_component_decides))
+            return true;
         // From an interface on, s ≥ rise·t − K/2·t². K bounds how much s curves downwards, which is as much as it
         // curves upwards in the other phase. The right side is positive up to 2·rise/K; a tenth of that is reserved for
         // the error of the rise.

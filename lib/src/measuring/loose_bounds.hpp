@@ -51,7 +51,7 @@ inline MarchingCost marching_cost(const Evidence& e, const Phased& object, const
             const auto crossing = tracer.first_crossing(origin, direction, t, std::numeric_limits<float>::max(),
                                                         carried, Evaluator::thread_workspace(), &counters);
             if (!crossing) break;
-            t = crossing->t_out;
+            t = crossing->t_to;
             carried = crossing->to;
         }
         return static_cast<double>(counters.batches);

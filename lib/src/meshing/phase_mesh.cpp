@@ -253,9 +253,9 @@ LineTracer line_tracer(const InterfaceTracer& tracer) {
         Phase phase = vacuum;
         float from = 0;
         while (const auto c = tracer.first_crossing(origin, direction, from, length, phase, workspace)) {
-            found.push_back({0.5f * (c->t_in + c->t_out), c->from, c->to, tracer.normal(*c, direction)});
+            found.push_back({0.5f * (c->t_from + c->t_to), c->from, c->to, tracer.normal(*c, direction)});
             phase = c->to;
-            from = c->t_out;
+            from = c->t_to;
         }
     };
 }

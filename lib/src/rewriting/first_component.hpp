@@ -8,7 +8,7 @@ namespace phasetree::rewriting {
 /// ray in the first component's phase evaluates only these, until that component says that the ray may leave the phase.
 struct FirstComponentFirst {
     WorkingProgram program;
-    std::uint32_t leading = 0;                    ///< the number of those instructions, without the input
+    std::uint32_t prefix = 0;                     ///< the number of those instructions, without the input
     std::span<const std::uint32_t> renumbered{};  ///< for each old index the new one; empty if all are unchanged
 };
 

@@ -108,7 +108,7 @@ Instruction Fuser::fused(std::span<const Instruction> code, std::uint32_t i) {
 }
 
 const Fuser::Fused& Fuser::operator()(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
-                                      std::span<const std::uint32_t> kept, std::uint32_t leading) {
+                                      std::span<const std::uint32_t> kept, std::uint32_t prefix) {
     uses_.assign(code.size(), 0);
     is_needed_.assign(code.size(), 0);
     for (const Instruction& in : code) {
@@ -132,7 +132,7 @@ const Fuser::Fused& Fuser::operator()(std::span<const Instruction> code, std::sp
     }
     fused_.code.assign(1, code[0]);
     fused_.renumbered.assign(code.size(), 0);
-    fused_.leading = 0;
+    fused_.prefix = 0;
     for (std::uint32_t i = 1; i < code.size(); ++i) {
         if (!is_needed_[i]) continue;
         fused_.renumbered[i] = static_cast<std::uint32_t>(fused_.code.size());
@@ -140,7 +140,7 @@ const Fuser::Fused& Fuser::operator()(std::span<const Instruction> code, std::sp
         in.a = fused_.renumbered[in.a];
         in.b = fused_.renumbered[in.b];
         fused_.code.push_back(in);
-        fused_.leading += i <= leading;
+        fused_.prefix += i <= prefix;
     }
     return fused_;
 }

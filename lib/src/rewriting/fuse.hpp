@@ -26,12 +26,12 @@ class Fuser {
     struct Fused {
         std::vector<Instruction> code;
         std::vector<std::uint32_t> renumbered;  ///< the new index of each value that still exists
-        std::uint32_t leading = 0;              ///< the number of instructions that the leading ones have become
+        std::uint32_t prefix = 0;               ///< the number of instructions that the prefix has become
     };
-    /// Fuses a program whose first `leading` instructions must stay first. The values in `kept`, like the outputs,
+    /// Fuses a program whose first `prefix` instructions must stay first. The values in `kept`, like the outputs,
     /// remain separate values. The result is valid until the next call.
     const Fused& operator()(std::span<const Instruction> code, std::span<const ProgramOutput> outputs,
-                            std::span<const std::uint32_t> kept, std::uint32_t leading);
+                            std::span<const std::uint32_t> kept, std::uint32_t prefix);
 
     /// The index of these floats among the constants. Appends them if they are not there yet.
     std::uint32_t intern(const void* floats, std::size_t count);

@@ -18,8 +18,8 @@ using rewriting::ArenaScope;
 
 namespace {
 
-// The steps of a routine for interpret(). Execution stops at a fold of space that jumps somewhere within the enclosure
-// of its point, because an enclosure across a jump would be wrong.
+// The steps of a routine for interpret(). Execution stops at a repetition of space (FoldingMap) that jumps somewhere
+// within the enclosure of its point, because an enclosure across a jump would be wrong.
 class StepsUpToJump : public RoutineSteps {
   public:
     StepsUpToJump(const Routine& routine, const Enclosure* registers) : RoutineSteps(routine), registers_(registers) {}
@@ -28,7 +28,7 @@ class StepsUpToJump : public RoutineSteps {
     }
 
   private:
-    // Whether the fold of a step jumps.
+    // Whether the repetition of space in a step jumps.
     bool jumps(std::size_t i) const {
         const Step& s = step(i);
         bool jumps = false;
@@ -48,10 +48,10 @@ class StepsUpToJump : public RoutineSteps {
 };
 
 // Tightens the enclosure of a convex primitive along a straight line, for t between −half and half. A convex function
-// lies below the chord through its values at both ends, so it is at most the larger of these. It lies above any chord
-// that is extended beyond its ends. Take the chord of length L = 2 half that ends at t = −half. Within L of that end,
-// its extension falls by at most as much as the chord itself. The same holds for the chord that begins at t = half. So
-// for t between −half and half:
+// lies below the chord through its values at both ends, so it is at most the larger of these. It lies above the
+// extension of any chord beyond its ends. Take the chord over [−half − L, −half], where L = 2·half. Extended over
+// [−half, half], a stretch of the same length, this chord falls by at most as much as it does over its own interval.
+// The same holds for the chord that begins at t = half. So for t between −half and half:
 //     f(t) ≥ f(−half) − max(f(−half − L) − f(−half), 0),   f(t) ≥ f(half) − max(f(half + L) − f(half), 0).
 // This holds even where the derivatives of the equation are unknown, such as those of a square root at zero.
 template <class P>
@@ -83,8 +83,8 @@ ComponentAlongRay::ComponentAlongRay(const Routine& routine, const glm::dvec3& o
     registers_.resize(slots);
 }
 
-// Runs the routine over a stretch of the ray. Returns false if it stops at a fold. Appends the values in the middle to
-// `centres`, if given.
+// Runs the routine over a stretch of the ray. Returns false if it stops at a jump. If `centres` is given, appends every
+// value that the steps compute at the midpoint of the stretch.
 bool ComponentAlongRay::run(double t_low, double t_high, double precision, std::vector<double>* centres) {
     const double middle = 0.5 * (t_low + t_high), half = 0.5 * (t_high - t_low);
     for (int i = 0; i < 3; ++i) {

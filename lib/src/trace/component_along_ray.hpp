@@ -9,16 +9,17 @@
 
 namespace phasetree::trace {
 
-/// The component of a ray's phase as a function of the distance t along the ray, bounded over stretches of it. The
-/// routine is run with Enclosures (intervals with derivatives) of the single variable t.
+/// The component of a ray's phase (the signed distance of that phase, negative inside it) as a function of the distance
+/// t along the ray, bounded over stretches of it. The routine is run with Enclosures (intervals with derivatives) of
+/// the single variable t.
 class ComponentAlongRay {
   public:
     /// The ray starts at `origin`; `phase` is the one that it is in, as in OutputSlot. The routine must outlive this
     /// object.
     ComponentAlongRay(const kernel::Routine&, const glm::dvec3& origin, const glm::dvec3& direction, float phase);
 
-    /// An upper bound on the component between two distances along the ray; Interval::most if none is known. The caller
-    /// does not need a bound that is tighter than `precision`.
+    /// An upper bound on the component between two distances along the ray; Interval::most, which stands for
+    /// "unbounded", if none is known. The caller does not need a bound that is tighter than `precision`.
     double upper_bound(double t_low, double t_high, double precision);
 
   private:

@@ -36,9 +36,10 @@ class Creep {
           counters_(counters),
           component_(*visit.routine, glm::dvec3(c.origin[0], c.origin[1], c.origin[2]),
                      glm::dvec3(visit.ray->direction), c.from),
-          t_(c.t_in) {}
+          t_(c.t_from) {}
 
-    // Alternates enclosed stretches, walks and searches by the kernel until one of them finishes.
+    // Alternates enclosed stretches, walks and searches by the kernel, until a kernel search completes or a leap
+    // reaches the end of the ray. Returns whether there is a crossing.
     bool finish() {
         Visit rest = visit_;
         for (float step = visit_.resolution;;) {
@@ -53,7 +54,7 @@ class Creep {
             spend(crossing_.batches);
             counters_.phantoms += crossing_.phantoms;
             if (is_hit || !crossing_.is_unfinished) return is_hit;
-            t_ = crossing_.t_in;
+            t_ = crossing_.t_from;
         }
     }
 
@@ -99,7 +100,7 @@ class Creep {
             if (!(next > end)) break;
             spend(batches_to_enclose);
             const double rounding_error = static_cast<double>(resolution) / 16;
-            // The bound is below the rounding error: no change of label counts before `next`.
+            // If the bound is below the rounding error, a change of label before `next` is ignored.
             const bool is_free =
                 component_.upper_bound(double{end}, double{next}, 0.1 * rounding_error) < rounding_error;
             if (is_free) end = next;

@@ -5,12 +5,13 @@
 // (kernel/visit.inl, which samples eight points at a time) leaves such a search unfinished. It is finished here, in two
 // ways.
 //
-// *Enclosed stretches.* Interval arithmetic with derivatives bounds the component φ of the ray's phase over a whole
-// stretch of the ray (ComponentAlongRay). The sum of the components of two phases is never negative. So if φ <
-// resolution/16, the rounding error, all along the stretch, no other phase is deeper there than the rounding error, and
-// the ray passes the stretch. Here, creeping rays differ from others: for other rays, a phase that is never deeper than
-// the rounding error still counts if it lasts for one and a half resolutions (March::decide_crossing). A creep along a
-// plane is one such stretch; along a curved surface, stretches are about √(resolution · radius) long.
+// *Enclosed stretches.* Interval arithmetic with derivatives bounds the component φ of the ray's phase (its signed
+// distance, negative inside it) over a whole stretch of the ray (ComponentAlongRay). The sum of the components of two
+// phases is never negative. Let ε = resolution/16 be the rounding error. If φ < ε all along the stretch, no other phase
+// is deeper than ε there, and the ray passes the stretch. Here, creeping rays differ from others: for other rays, a
+// phase that is never deeper than the rounding error still counts if it lasts for one and a half resolutions
+// (March::decide_crossing). A creep along a plane is one such stretch; along a curved surface, stretches are about
+// √(resolution · radius) long.
 //
 // *Walks.* Where nothing can be proven (outlines, patterns and images, whose derivatives are unknown), the ray walks in
 // steps of a resolution, eight per batch, while the interface is near. Where the label (the phase found at a sample)

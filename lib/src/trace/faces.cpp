@@ -76,19 +76,19 @@ struct Plane {
 struct Nearest {
     FaceHit leaving{infinite_distance, 0, false};
     double entering = infinite_distance;
-    bool has_passed = false;  // an entering one was passed at the start
-    double behind = -infinite_distance;
-    bool is_behind_entering = false;
+    bool has_passed = false;                        // an entering one was passed at the start
+    double last_before_start = -infinite_distance;  // the last crossing before the start of the ray,
+    bool is_last_before_entering = false;           // and whether it enters the carried phase
 
-    // `is_front` is the side from which the ray leaves its phase. The ray starts at `begin`. Entering crossings up to
-    // `passed` are skipped. Crossings before the start are considered back to `low`.
+    // `is_front`: whether the ray leaves its phase through front faces. The ray starts at `begin`. Entering crossings
+    // up to `passed` are skipped. Crossings before the start are considered back to `low`.
     Nearest(const FaceHits& hits, bool is_front, double low, double begin, double passed) {
         for (const FaceHit& hit : hits) {
             const bool is_leaving = hit.is_front == is_front;
             if (hit.t < begin) {
-                if (hit.t >= low && hit.t > behind) {
-                    behind = hit.t;
-                    is_behind_entering = !is_leaving;
+                if (hit.t >= low && hit.t > last_before_start) {
+                    last_before_start = hit.t;
+                    is_last_before_entering = !is_leaving;
                 }
             } else if (is_leaving) {
                 if (hit.t < leaving.t) leaving = hit;
@@ -123,7 +123,7 @@ bool bracket(const FacesOfCell& cell, const FaceVisit& visit, const FaceHit& hit
          point_at(visit.ray, out),
          hit.is_front ? cell.first : cell.other,
          hit.is_front ? cell.other : cell.first};
-    return move_to_side(c.p_in, plane, sign) && move_to_side(c.p_out, plane, -sign);
+    return move_to_side(c.p_from, plane, sign) && move_to_side(c.p_to, plane, -sign);
 }
 
 // The crossing of a ray that is in the other phase where it enters the box.
@@ -143,8 +143,8 @@ FaceAnswer first_crossing(const FacesOfCell& cell, const FaceVisit& visit, Cross
     const FaceHits hits(cell, ray);
     const auto t_min = static_cast<double>(visit.t_min), resolution = static_cast<double>(visit.resolution);
     if (hits.empty()) {
-        const bool may_be_elsewhere = carried && cell.box.contains(point_at(ray, t_min));
-        return may_be_elsewhere ? FaceAnswer::none_if_in_phase : FaceAnswer::none;
+        const bool may_be_in_other_phase = carried && cell.box.contains(point_at(ray, t_min));
+        return may_be_in_other_phase ? FaceAnswer::none_if_in_phase : FaceAnswer::none;
     }
     const Part box = part_in(cell.box, ray);
     const double begin = std::max(box.low, t_min), end = std::min(box.high, static_cast<double>(visit.t_max));
@@ -164,13 +164,13 @@ FaceAnswer first_crossing(const FacesOfCell& cell, const FaceVisit& visit, Cross
     const double leaving = nearest.leaving.t;
     if (nearest.entering <= std::min(leaving, end)) {
         const double reach = 4 * resolution;
-        if (starts_here || nearest.behind >= begin - reach || nearest.entering <= begin + reach)
+        if (starts_here || nearest.last_before_start >= begin - reach || nearest.entering <= begin + reach)
             return FaceAnswer::unclear;
         crossing = change_at_entry(cell, visit, begin);
         return FaceAnswer::crossing;
     }
     if (!(leaving <= end)) {
-        const bool is_certain = !starts_here || nearest.has_passed || nearest.is_behind_entering;
+        const bool is_certain = !starts_here || nearest.has_passed || nearest.is_last_before_entering;
         return is_certain ? FaceAnswer::none : FaceAnswer::none_if_in_phase;
     }
     if (nearest.entering - leaving < 3 * resolution) return FaceAnswer::unclear;
@@ -180,8 +180,8 @@ FaceAnswer first_crossing(const FacesOfCell& cell, const FaceVisit& visit, Cross
 std::optional<glm::vec3> normal_of_face(const FacesOfCell& cell, const Crossing& crossing, const glm::vec3& direction,
                                         float resolution) {
     if (crossing.from != cell.first && crossing.from != cell.other) return std::nullopt;
-    const FaceHits hits(cell, TracedRay(crossing.p_in, direction));
-    const double width = static_cast<double>(glm::dot(crossing.p_out - crossing.p_in, direction));
+    const FaceHits hits(cell, TracedRay(crossing.p_from, direction));
+    const double width = static_cast<double>(glm::dot(crossing.p_to - crossing.p_from, direction));
     double nearest = width / 2 + static_cast<double>(resolution);
     const FaceHit* found = nullptr;
     for (const FaceHit& hit : hits) {

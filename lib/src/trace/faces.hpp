@@ -39,11 +39,13 @@ enum class FaceAnswer {
 /// Faces divide the line into parts that are alternately in one phase and in the other. `leaving` are the crossings out
 /// of the carried phase, `entering` those into it. In order along the ray, from its start in the box:
 ///
-///   * If a crossing that enters comes first, the ray is not in its phase. Where it enters the box far from any face,
-///     the change of phase is there and has no length; otherwise it is unclear. At the start of a ray, such a crossing
-///     within four resolutions is skipped, as in the kernel, because rounding has moved the start across the face.
-///   * If one that leaves comes first, it is the change of phase. If another follows within three resolutions, it may
-///     be undone, or the ray may be on an edge: unclear.
+///   * If an entering crossing comes first, the ray is not in the phase that it carries. If the ray enters the box from
+///     outside and no face is within four resolutions of the entry point, the change of phase is reported there, with
+///     zero length; otherwise the answer is `unclear`. For a ray that starts in the box, an entering crossing within
+///     four resolutions of the start is skipped, as in the kernel, because rounding has moved the start across the
+///     face; any other is `unclear`.
+///   * If a leaving crossing comes first, it is the change of phase, unless an entering crossing follows within three
+///     resolutions. The change may then be undone, or the ray may be on an edge, so the answer is `unclear`.
 ///   * If there is none, the phase does not change. For a ray that starts in the box, the last crossing behind the
 ///     start must be one that enters; otherwise the ray may not be in its phase.
 ///

@@ -17,10 +17,10 @@ std::optional<Crossing> first_crossing(const Visit& visit, TraceCounters& counte
         is_hit = finish_search(visit, c, counters);
     if (!is_hit) return std::nullopt;
     const glm::vec3 start{c.origin[0], c.origin[1], c.origin[2]}, &direction = visit.ray->direction;
-    return Crossing{static_cast<float>(c.start + static_cast<double>(c.t_in)),
-                    static_cast<float>(c.start + static_cast<double>(c.t_out)),
-                    start + c.t_in * direction,
-                    start + c.t_out * direction,
+    return Crossing{static_cast<float>(c.start + static_cast<double>(c.t_from)),
+                    static_cast<float>(c.start + static_cast<double>(c.t_to)),
+                    start + c.t_from * direction,
+                    start + c.t_to * direction,
                     Phase{static_cast<std::uint8_t>(c.from)},
                     Phase{static_cast<std::uint8_t>(c.to)}};
 }

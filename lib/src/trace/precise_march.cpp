@@ -20,8 +20,9 @@ constexpr double first_stretch = 1024, shortest_stretch = 32;
 // shortest step doubles with each further `steps_per_doubling`.
 constexpr double slow_in_resolutions = 1024;
 constexpr std::size_t most_slow_steps = 65'536, steps_per_doubling = 256;
-// The last sample labelled with the ray's phase is an end of the bracket if it is within this many resolutions.
-constexpr double near_in_resolutions = 256;
+// Let b be the first sample outside the ray's phase. Bisection starts from the last sample labelled with that phase if
+// it is at most this many (current) shortest steps before b, and from the sample just before b otherwise.
+constexpr double near_in_steps = 256;
 
 // The range of distances along a ray in a box; empty if the second is less than the first.
 std::array<double, 2> range_in(const Bounds& box, const glm::dvec3& origin, const glm::dvec3& direction) {
@@ -77,16 +78,16 @@ PreciseMarch::Sample PreciseMarch::at(double t) const {
 
 // The length within which the phase certainly does not change.
 double PreciseMarch::step_from(const Sample& s) const {
-    if (!s.is_labelled()) return 0;
+    if (!s.has_carried_label()) return 0;
     return s.interface_distance * (1 - tracer_.evaluator().lipschitz_excess()) - value_error_;
 }
 
 std::optional<PreciseCrossing> PreciseMarch::next() {
     if (!(t_ <= end_)) return std::nullopt;
     Sample a = at(t_);
-    if (!is_in(a)) return passed(a, a);
+    if (!is_in(a)) return report_crossing(a, a);
     labelled_.reset();
-    if (a.is_labelled()) labelled_ = a;
+    if (a.has_carried_label()) labelled_ = a;
     slope_ = -1;
     samples_ = slow_steps_ = 0;
     wait_ = first_wait;
@@ -97,10 +98,10 @@ std::optional<PreciseCrossing> PreciseMarch::next() {
         count_slow_steps(step);
         const Sample b = step >= shortest_ ? step_surely(a, step) : at(std::min(a.t + shortest_, end_));
         if (!is_in(b)) {
-            const bool is_near = labelled_ && b.t - labelled_->t <= near_in_resolutions * shortest_;
+            const bool is_near = labelled_ && b.t - labelled_->t <= near_in_steps * shortest_;
             return crossing_between(is_near ? *labelled_ : a, b);
         }
-        if (b.is_labelled()) labelled_ = b;
+        if (b.has_carried_label()) labelled_ = b;
         if (!(b.t > a.t)) break;  // the end of the ray is within rounding
         // How fast the interface distance changes; limited, so that steps do not grow without bounds.
         slope_ = std::clamp((b.interface_distance - a.interface_distance) / (b.t - a.t), -1.0, 0.9);
@@ -110,13 +111,13 @@ std::optional<PreciseCrossing> PreciseMarch::next() {
     return std::nullopt;
 }
 
-// A step of a known safe length. If the interface distance changes along the ray as it did in the last step, a longer
-// one may be covered from both ends.
+// Takes a step of a length that is known to be safe. First tries a longer one, guessed from how the interface distance
+// changed in the last step: it is safe, too, if the safe lengths at its two ends together cover it.
 PreciseMarch::Sample PreciseMarch::step_surely(const Sample& a, double step) const {
     const double covered = 1.9 * step / (1 - slope_);
     if (covered > 1.1 * step) {
         const Sample b = at(std::min(a.t + covered, end_));
-        if (b.is_labelled() && step + step_from(b) >= b.t - a.t) return b;
+        if (b.has_carried_label() && step + step_from(b) >= b.t - a.t) return b;
     }
     return at(std::min(a.t + step, end_));
 }
@@ -157,7 +158,7 @@ bool PreciseMarch::pass_enclosed(Sample& a) {
     const Sample b = at(end);
     if (!is_in(b)) return false;  // a contradiction by rounding: samples decide
     a = b;
-    if (a.is_labelled()) labelled_ = a;
+    if (a.has_carried_label()) labelled_ = a;
     return true;
 }
 
@@ -167,8 +168,8 @@ bool PreciseMarch::pass_enclosed(Sample& a) {
 // certainly in a third phase, the start of that phase is bracketed instead.
 PreciseCrossing PreciseMarch::crossing_between(const Sample& low, Sample high) {
     for (;;) {
-        const auto [before, behind] = begin_of_label(low, high);
-        if (is_in(before)) return passed(before, behind);
+        const auto [before, after] = begin_of_label(low, high);
+        if (is_in(before)) return report_crossing(before, after);
         high = before;
     }
 }
@@ -197,13 +198,13 @@ std::pair<PreciseMarch::Sample, PreciseMarch::Sample> PreciseMarch::begin_of_lab
     return {low, high};
 }
 
-// Makes a crossing of its bracket. The search goes on from the far end, in the phase there.
-PreciseCrossing PreciseMarch::passed(const Sample& in, const Sample& out) {
+// Makes the crossing with this bracket, and continues the search from its far end, in the phase there.
+PreciseCrossing PreciseMarch::report_crossing(const Sample& in, const Sample& out) {
     PreciseCrossing c;
-    c.t_in = (skipped_ + in.t) / length_;
-    c.t_out = (skipped_ + out.t) / length_;
-    c.p_in = point(in.t);
-    c.p_out = point(out.t);
+    c.t_from = (skipped_ + in.t) / length_;
+    c.t_to = (skipped_ + out.t) / length_;
+    c.p_from = point(in.t);
+    c.p_to = point(out.t);
     c.from = carried_;
     c.to = out.phase;
     c.normal = normal(in.t, out.t, c.to);
@@ -215,21 +216,21 @@ PreciseCrossing PreciseMarch::passed(const Sample& in, const Sample& out) {
 // The gradients of the components on both sides, at the bracket's ends and a resolution before and after it. The first
 // gradient that points along the ray is used. If none does, because the ray runs along the interface or the slope is
 // zero, the one with the smallest angle to the ray is used, or the ray's direction.
-glm::dvec3 PreciseMarch::normal(double t_in, double t_out, Phase to) const {
+glm::dvec3 PreciseMarch::normal(double t_from, double t_to, Phase to) const {
     // The cosine of an angle that is certainly below 90°.
     constexpr double certain = 1e-6;
     const PreciseEvaluator& e = tracer_.evaluator();
     glm::dvec3 best = direction_;
-    double steepest = 0;
+    double best_cosine = 0;
     for (const double beyond : {0.0, resolution_})
         for (const bool is_near : {true, false}) {
-            const double t = is_near ? t_in - beyond : t_out + beyond;
+            const double t = is_near ? t_from - beyond : t_to + beyond;
             const glm::dvec3 g = is_near ? e.gradient(point(t), carried_) : -e.gradient(point(t), to);
             const double steepness = glm::length(g), cosine = glm::dot(g, direction_) / steepness;
             if (!(steepness > 0.01)) continue;
             if (cosine > certain) return g / steepness;
-            if (cosine > steepest) {
-                steepest = cosine;
+            if (cosine > best_cosine) {
+                best_cosine = cosine;
                 best = g / steepness;
             }
         }

@@ -17,9 +17,10 @@ using trace::PreciseMarch;
 
 namespace {
 
-// Rays per block of a batch: few, because a ray may take long.
+// The number of rays in a block that one thread traces: few, because a single ray may take long.
 constexpr std::size_t precise_rays = 64;
-// The default resolution, as a fraction of the diagonal; for objects that search in floats, that of floats.
+// The default resolution, as a fraction of the diagonal. Objects with nodes that search in single precision
+// (PreciseProgram::searches_in_floats) get the fraction that the single-precision tracer uses near the origin.
 constexpr double fine = 0x1p-30, fine_in_floats = 2e-6;
 // The finest resolution, as a multiple of value_error(), and the coarsest, as a fraction of the diagonal.
 constexpr double min_resolution_over_error = 2, max_resolution_over_diagonal = 0.01;
@@ -27,7 +28,8 @@ constexpr double min_resolution_over_error = 2, max_resolution_over_diagonal = 0
 // centre and the value in double precision.
 constexpr double value_error_over_difference = 4, enclosure_error_over_difference = 2;
 
-// The largest difference between enclosures of single points and doubles, for all numbers that the program computes.
+// The largest difference, over 16 random points and every value that the program computes, between the centre of its
+// enclosure at that point and the value in double precision; infinity if the two cannot be compared.
 double measured_difference(const PreciseProgram& program, const Bounds& bounds) {
     // Programs that take long to compare take long to enclose along rays, too.
     constexpr std::size_t longest = 20'000;

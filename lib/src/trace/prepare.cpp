@@ -12,16 +12,16 @@ namespace phasetree {
 
 namespace {
 
-// The finest resolution, as a fraction of the farthest coordinate: two to four units in the last place. At finer ones,
-// there are no floats to sample.
+// The finest resolution, as a fraction of the farthest coordinate or of the diagonal, whichever is larger: two to four
+// units in the last place. At finer ones, there are no floats to sample.
 constexpr float finest = 2.5e-7f;
 // The chosen resolution, as fractions of the farthest coordinate and of the diagonal; the larger product is used. At
 // this resolution, the rounding errors of values are invisible.
 constexpr float of_farthest = 1e-6f, of_diagonal = 2e-6f;
 // The coarsest resolution, as a fraction of the diagonal. A coarser one would miss much of the object.
 constexpr float coarsest = 0.01f;
-// Warn about a resolution coarser than this fraction of the diagonal. It is chosen only for an object far from the
-// origin.
+// Warn if the resolution that floats force on an object is coarser than this fraction of the diagonal. This happens
+// only far from the origin.
 constexpr float poor = 1e-3f;
 
 }  // namespace

@@ -19,9 +19,10 @@ int main() {
     std::optional<Phase> phase;  // initially the phase at the origin
     float t = 0;
     while (const auto crossing = tracer.first_crossing(origin, direction, t, 100, phase, workspace)) {
-        std::printf("z = %6.3f: from phase %d to phase %d\n", static_cast<double>(crossing->p_in.z),
+        // p_from is just before the interface, and t_to just past it.
+        std::printf("z = %6.3f: from phase %d to phase %d\n", static_cast<double>(crossing->p_from.z),
                     crossing->from.index, crossing->to.index);
         phase = crossing->to;
-        t = crossing->t_out;
+        t = crossing->t_to;
     }
 }

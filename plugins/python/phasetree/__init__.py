@@ -20,7 +20,7 @@ from phasetree._errors import Error, Interrupted, SceneError
 from phasetree._formula import Expression, coordinates
 from phasetree._parts import cameras, lights, materials, meshes, numbers, phase_functions, textures
 from phasetree._phases import Phase, phase, vacuum
-from phasetree._placed import Places, places
+from phasetree._placed import Instances, instances_of
 from phasetree._scene import Image, Scene, load
 from phasetree._solve import Solution, solve
 from phasetree._trees import Closest, Crossings, Field, Hits, Measures, NextCrossings, Object, PhaseMesh, Proof
@@ -41,8 +41,8 @@ voxels = _parts.voxels
 camera = cameras.thin_lens
 
 __all__ = [
-    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Interrupted", "Measures", "NextCrossings", "Object", "Phase", "PhaseMesh", "Places", "Proof", "Scene", "SceneError", "Solution", "View",
-    "build_id", "camera", "cameras", "coordinates", "image", "lights", "load", "materials", "meshes", "normal_map", "numbers", "phase", "phase_functions", "places", "solve", "textures", "vacuum", "view", "voxels",
+    "Closest", "Crossings", "Error", "Expression", "Field", "Hits", "Image", "Instances", "Interrupted", "Measures", "NextCrossings", "Object", "Phase", "PhaseMesh", "Proof", "Scene", "SceneError", "Solution", "View",
+    "build_id", "camera", "cameras", "coordinates", "image", "instances_of", "lights", "load", "materials", "meshes", "normal_map", "numbers", "phase", "phase_functions", "solve", "textures", "vacuum", "view", "voxels",
 ]  # fmt: skip
 # Not among them are those that Python has under the same name.
 __all__ += [name for name in _formula.functions if name not in ("abs", "max", "min")]

@@ -261,7 +261,7 @@ class Field:
         Section 4.1 of Galin et al. (2026).
 
         of: The field. (field)
-        half_thickness: Half of the wall, t. (number in m; positive)
+        half_thickness: Half of the wall's thickness, t. (number in m; positive)
         """
     def displace(self, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
         r"""Displaces the surface of a field by fractal noise.
@@ -304,7 +304,7 @@ class Field:
         count_z: Number of copies along z. (whole number; at least 1 and at most 10000; default 1)
         """
     def endless_grid(self, spacing: Sequence[float] | np.ndarray) -> Field:
-        r"""Copies repeated endlessly along the axes; they must not touch.
+        r"""Copies repeated endlessly along the axes; their bounding boxes must not touch.
 
             max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
 
@@ -324,7 +324,7 @@ class Field:
         turned: 1: each copy is rotated so that its x axis points away from the centre; 0: all copies have the same orientation. (whole number; at least 0 and at most 1; default 0)
         """
     def fibonacci_sphere(self, count: int, radius: float) -> Field:
-        r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+        r"""Copies spread evenly over a sphere along a Fibonacci spiral, each with its z axis pointing outward.
 
             copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
@@ -335,7 +335,7 @@ class Field:
         radius: Radius of the sphere of the copies' origins. (number in m; positive)
         """
     def scatter(self, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
-        r"""Copies scattered over the surface of a field, standing on it, with random rotations.
+        r"""Copies scattered over the surface of a field, each with its z axis pointing outward, and with random rotations.
 
             copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace earlier ones
 
@@ -355,7 +355,7 @@ class Field:
         height: Whole height, centred at z = 0. (number in m; positive)
         """
     def revolve(self, offset: float | None = ...) -> Field:
-        r"""Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section, which must not cross the axis.
+        r"""Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact if the field is the exact distance to its cross-section, and the section is on one side of the axis or symmetric about it.
 
             f(|pxy| − o, z, 0)
 
@@ -370,7 +370,7 @@ class Field:
         Sections 4.1 and 7.3 of Galin et al. (2026).
 
         of: The field or object to bound. (object)
-        margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
+        margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
         volume: The bounding volume, a field. Default: the bounding box. (field; default none)
         """
     def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
@@ -383,11 +383,11 @@ class Field:
         of: The field or object to replace. (object)
         proxy: The simpler field, g. (field)
         error: Maximum distance e between the two surfaces. (number in m; zero or more)
-        margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
-        inside: For an object: the phase that fills the proxy more than e inside. By default, the proxy is used only outside. (phase or list of phases; default none)
+        margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
+        inside: For an object: the phase that fills the part of the proxy deeper than e. By default, the proxy is used only outside. (phase or list of phases; default none)
         """
     def level_of_detail(self, *of: Field, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
-        r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
+        r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless distances are chosen for a view (`phasetree render --detail`; in C++, with_levels_of_detail()).
 
             min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
@@ -396,7 +396,7 @@ class Field:
         of: The levels, fields or objects, the finest first. (list of objects)
         viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
         distances: Increasing distances at which each level is replaced by the next; one less than there are levels. (list of numbers in m; positive; default [])
-        errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
+        errors: For each coarser level, the distance of its surface from that of the finest level, in increasing order. --detail compares these with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
         """
     def set(self, phase: Phase | str) -> Object:
         r"""Fills a field with one phase.
@@ -418,7 +418,7 @@ class Field:
         of: The field, whose surface is the middle of the wall. (field)
         shell: The phase of the wall. (phase)
         inside: The phase within. (phase)
-        half_thickness: Half of the wall, t. (number in m; positive)
+        half_thickness: Half of the wall's thickness, t. (number in m; positive)
         """
     def translate(self, by: Sequence[float] | np.ndarray, over: Phase | str | Sequence[Phase | str] | None = ..., under: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
         r"""Translates.
@@ -666,7 +666,7 @@ raises Interrupted, whose `result` has what was known by then."""
         Section 4.2 of Galin et al. (2026).
 
         of: The object. (object)
-        phases: The phases to merge; by default all. (phase or list of phases; default none)
+        phases: The phases to merge; by default all but the vacuum. (phase or list of phases; default none)
         """
     def instances(self, positions: Sequence[Sequence[float]] | np.ndarray, turns: float | Sequence[float] | None = ..., scales: float | Sequence[float] | None = ...) -> Object:
         r"""Copies at the given positions, optionally rotated about the z axis and scaled.
@@ -699,7 +699,7 @@ raises Interrupted, whose `result` has what was known by then."""
         count_z: Number of copies along z. (whole number; at least 1 and at most 10000; default 1)
         """
     def endless_grid(self, spacing: Sequence[float] | np.ndarray) -> Object:
-        r"""Copies repeated endlessly along the axes; they must not touch.
+        r"""Copies repeated endlessly along the axes; their bounding boxes must not touch.
 
             max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
 
@@ -719,7 +719,7 @@ raises Interrupted, whose `result` has what was known by then."""
         turned: 1: each copy is rotated so that its x axis points away from the centre; 0: all copies have the same orientation. (whole number; at least 0 and at most 1; default 0)
         """
     def fibonacci_sphere(self, count: int, radius: float) -> Object:
-        r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+        r"""Copies spread evenly over a sphere along a Fibonacci spiral, each with its z axis pointing outward.
 
             copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
@@ -730,7 +730,7 @@ raises Interrupted, whose `result` has what was known by then."""
         radius: Radius of the sphere of the copies' origins. (number in m; positive)
         """
     def scatter(self, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
-        r"""Copies scattered over the surface of a field, standing on it, with random rotations.
+        r"""Copies scattered over the surface of a field, each with its z axis pointing outward, and with random rotations.
 
             copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace earlier ones
 
@@ -749,7 +749,7 @@ raises Interrupted, whose `result` has what was known by then."""
         Sections 4.1 and 7.3 of Galin et al. (2026).
 
         of: The field or object to bound. (object)
-        margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
+        margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
         volume: The bounding volume, a field. Default: the bounding box. (field; default none)
         """
     def proxy(self, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -762,11 +762,11 @@ raises Interrupted, whose `result` has what was known by then."""
         of: The field or object to replace. (object)
         proxy: The simpler field, g. (field)
         error: Maximum distance e between the two surfaces. (number in m; zero or more)
-        margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
-        inside: For an object: the phase that fills the proxy more than e inside. By default, the proxy is used only outside. (phase or list of phases; default none)
+        margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
+        inside: For an object: the phase that fills the part of the proxy deeper than e. By default, the proxy is used only outside. (phase or list of phases; default none)
         """
     def level_of_detail(self, *of: Object, viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
-        r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
+        r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless distances are chosen for a view (`phasetree render --detail`; in C++, with_levels_of_detail()).
 
             min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
@@ -775,7 +775,7 @@ raises Interrupted, whose `result` has what was known by then."""
         of: The levels, fields or objects, the finest first. (list of objects)
         viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
         distances: Increasing distances at which each level is replaced by the next; one less than there are levels. (list of numbers in m; positive; default [])
-        errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
+        errors: For each coarser level, the distance of its surface from that of the finest level, in increasing order. --detail compares these with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
         """
     def under(self, *of: Object) -> Object:
         r"""Combines objects; where they overlap, later ones replace earlier ones. Applied pairwise, from the first object to the last.
@@ -807,7 +807,7 @@ raises Interrupted, whose `result` has what was known by then."""
         thickness: Thickness of the layer. (number in m; positive)
         """
     def intersect_shape(self, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Keeps only what lies inside a shape: of all phases, or of some, leaving the others unchanged.
+        r"""Cuts all phases of an object, or only some of them, to the inside of a shape.
 
             φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, −f))
 
@@ -818,7 +818,7 @@ raises Interrupted, whose `result` has what was known by then."""
         phases: The phases to cut; by default all. (phase or list of phases; default none)
         """
     def subtract_shape(self, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-        r"""Cuts a shape away: from all phases, or from some, leaving the others unchanged.
+        r"""Cuts a shape out of all phases of an object, or out of only some of them.
 
             φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, f))
 
@@ -829,7 +829,7 @@ raises Interrupted, whose `result` has what was known by then."""
         phases: The phases to cut; by default all. (phase or list of phases; default none)
         """
     def change(self, from_: Phase | str, to: Phase | str, shape: Field | Expression | None = ...) -> Object:
-        r"""Turns one phase into another within a shape (everywhere without one).
+        r"""Turns one phase into another inside a shape, or everywhere if no shape is given.
 
             φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀
 
@@ -858,7 +858,7 @@ raises Interrupted, whose `result` has what was known by then."""
         Section 4.4 of Galin et al. (2026).
 
         a: The object A. (object)
-        b: The object B, which replaces A where they are not in contact. (object)
+        b: The object B, which replaces A where they overlap without being in contact. (object)
         phase_a: The phase of A that is in contact. (phase)
         phase_b: The phase of B that is in contact. (phase)
         alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
@@ -871,7 +871,7 @@ raises Interrupted, whose `result` has what was known by then."""
         Section 4.4 of Galin et al. (2026).
 
         a: The object A. (object)
-        b: The object B, which replaces A where they are not in contact. (object)
+        b: The object B, which replaces A where they overlap without being in contact. (object)
         alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
         phases_a: The phases of A in contact; by default all. (phase or list of phases; default none)
         phases_b: The phases of B in contact; by default all. (phase or list of phases; default none)
@@ -1136,9 +1136,9 @@ class Scene:
 
     object: an Object; to render it, give its phases materials. A scene has either this object, or `objects`, or only
     meshes. objects: {name: object}, or {name: (object, map)}, where the map is a position or a 3x4 or 4x4 matrix.
-    Objects may touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects
-    and groups. An object with instances appears only where they place it, not at its own map as well. groups: {name:
-    places}.
+    Objects may touch, but must not overlap. instances: one or several pt.instances_of(name, transforms), which place
+    objects and groups. An object with instances appears only where they place it, not at its own map as well. groups:
+    {name: instances}.
 
     unit: the unit of lengths, "mm", "cm", "m" or "in"; it does not affect rendering. expect: statements, as in "expect"
     of a scene file, which `phasetree check --prove` proves or refutes.
@@ -1169,13 +1169,13 @@ not depend on the version of Open Image Denoise. Image.planes then has the pictu
 time_limit: in seconds; rendering stops with the last pass that fits. Unless samples is also given, only the
 time ends the render. at: the time in seconds at which animated values are evaluated."""
 
-class Places:
+class Instances:
     of: str
     transforms: np.ndarray
     def __len__(self) -> int: ...
 
-def places(of: str, transforms: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> Places:
-    r"""Places an object or a group of a scene, once or many times. Returns Places.
+def instances_of(of: str, transforms: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> Instances:
+    r"""Instances of an object or a group, for the `instances` or `groups` of a Scene. Returns Instances.
 
     of: the name of the object or group. transforms: positions of shape (3,) or (N, 3), or matrices of
     affine maps, of shape (3, 4), (4, 4), (N, 3, 4) or (N, 4, 4)."""
@@ -1294,7 +1294,7 @@ def box(size: Sequence[float] | np.ndarray) -> Field:
     """
 
 def rounded_box(size: Sequence[float] | np.ndarray, radius: float) -> Field:
-    r"""A box whose edges and corners are rounded, within the same size; exact.
+    r"""A box with rounded edges and corners, without a change of size; exact.
 
         box(s − 2r) − r
 
@@ -1332,7 +1332,7 @@ def capsule(from_: Sequence[float] | np.ndarray, to: Sequence[float] | np.ndarra
     """
 
 def torus(major: float, minor: float) -> Field:
-    r"""A ring about the z axis; exact.
+    r"""A ring about the z axis; exact if the tube's radius is at most the ring's.
 
         |(|pxy| − R, pz)| − r
 
@@ -1388,7 +1388,7 @@ def tube(radius: float, inner_radius: float, height: float) -> Field:
     """
 
 def rounded_cylinder(radius: float, height: float, edge: float) -> Field:
-    r"""A cylinder whose rims are rounded, within the same size; exact.
+    r"""A cylinder with rounded rims, without a change of size; exact.
 
         cylinder(r − e, h − 2e) − e
 
@@ -1436,7 +1436,7 @@ def wedge(size: Sequence[float] | np.ndarray) -> Field:
     """
 
 def pyramid(base: float, height: float) -> Field:
-    r"""A pyramid with a square base, centred at half its height on the z axis; exact.
+    r"""A pyramid with a square base about the z axis, with the origin at half its height; exact.
 
         ± min(distance to the base, distance to the nearest slanted face)
 
@@ -1455,13 +1455,13 @@ def octahedron(radius: float) -> Field:
 def tetrahedron(radius: float) -> Field:
     r"""A regular tetrahedron about the origin, with corners on the space diagonals; exact.
 
-        fold to x ≥ y ≥ |z|;  m, or |(m, e, max(t − √2 k, 0))| beyond the edge
+        fold to x ≥ y ≥ |z|;  m, or |(m, e, max(t − √2 k, 0))| beyond the edge,  m the height above the face's plane, e the distance beyond its edge, t along the edge, k = radius/√3
 
     radius: Distance of the corners from the origin. (number in m; positive)
     """
 
 def gyroid(period: float, thickness: float) -> Field:
-    r"""A wall along Schoen's gyroid, which fills space; a lower bound.
+    r"""A wall along Schoen's gyroid, repeated endlessly along all axes; a lower bound.
 
         |sin x cos y + sin y cos z + sin z cos x|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period
 
@@ -1470,7 +1470,7 @@ def gyroid(period: float, thickness: float) -> Field:
     """
 
 def schwarz_p(period: float, thickness: float) -> Field:
-    r"""A wall along Schwarz' primitive surface, which fills space; a lower bound.
+    r"""A wall along Schwarz' primitive surface, repeated endlessly along all axes; a lower bound.
 
         |cos x + cos y + cos z|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period
 
@@ -1479,7 +1479,7 @@ def schwarz_p(period: float, thickness: float) -> Field:
     """
 
 def schwarz_d(period: float, thickness: float) -> Field:
-    r"""A wall along Schwarz' diamond surface, which fills space; a lower bound.
+    r"""A wall along Schwarz' diamond surface, repeated endlessly along all axes; a lower bound.
 
         |sin x cos(y − z) + cos x sin(y + z)|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period
 
@@ -1522,7 +1522,7 @@ def siren(file: str | PathLike[str], samples: int | None = ...) -> Field:
     """
 
 def height_map(file: str | PathLike[str], size_x: float, size_y: float, height: float) -> Field:
-    r"""The ground below a height map about the z axis; black is low and white is high.
+    r"""The ground below a height map, which is centred on the z axis; black is low and white is high.
 
         min(max((z − h(x, y))/√(1 + Lx² + Ly²), z − max h), z − min h),  h the quadratic B-spline of the pixels
 
@@ -1539,17 +1539,17 @@ def mesh(file: str | PathLike[str], rule: Literal["winding_number", "even_odd", 
 
         ± min over the triangles of |p − nearest point|; with a thickness, min … − thickness/2
 
-    file: Mesh file: OBJ, PLY or STL. Coordinates are used as they are, as lengths in the scene's unit. Place the mesh by wrapping the node in `scale`, `rotate` and `translate`; a file whose y axis points up needs {"rotate": {"axis": [1, 0, 0], "angle": 90, "of": …}}. Materials, colours, normals and texture coordinates of the file are ignored: the phases define the materials. Triangles are counter-clockwise seen from outside. Vertices that differ only by rounding are merged. Holes are closed, parts that intersect are joined, and parts that are inside out are turned; only a mesh that encloses nothing is rejected, unless it has a `thickness`. Walls and gaps thinner than a millionth of the mesh's size may be confused. (name of a file)
-    rule: Which points are inside, by how often the surface winds around them: "winding_number": at least once, the union of all parts; "even_odd": an odd number of times, so a part within another is a cavity; "non_zero": any number of times, in either direction. All three are the same for a closed mesh whose parts do not overlap. (`"winding_number"`, `"even_odd"`, `"non_zero"`; default "winding_number")
+    file: Mesh file: OBJ, PLY or STL. Coordinates are used as they are, as lengths in the scene's unit. Place the mesh by wrapping the node in `scale`, `rotate` and `translate`; a file whose y axis points up needs {"rotate": {"axis": [1, 0, 0], "angle": 90, "of": …}}. Materials, colours, normals and texture coordinates of the file are ignored: the phases define the materials. Triangles are counter-clockwise seen from outside. Vertices that differ only by rounding are merged. Holes are closed, parts that intersect are joined, and parts that are inside out are flipped. A surface that encloses nothing is rejected unless it has a `thickness`; so are parts that coincide within rounding. Walls and gaps thinner than a millionth of the mesh's size may be confused. (name of a file)
+    rule: Which points are inside, by how often the surface winds around them: "winding_number": at least once, the union of all parts; "even_odd": an odd number of times, so a part within another is a cavity; "non_zero": at least once, in either direction. All three are the same for a closed mesh whose parts do not overlap. (`"winding_number"`, `"even_odd"`, `"non_zero"`; default "winding_number")
     thickness: Thickness of a wall along the surface, half of it on either side. Use it for an open sheet, or for a closed surface that is to be hollow. The mesh is used as it is, without repairs, and `rule` is ignored. Open edges and convex edges of the wall are rounded, with a radius of half of the thickness. 0: the solid inside the surface. (number in m; zero or more; default 0)
     """
 
 def volume(file: str | PathLike[str], grid: str | None = ...) -> Field:
-    r"""The solid of a level set in an OpenVDB file, in the position stored there. The field does not grow beyond the file's narrow band.
+    r"""The solid of a level set in an OpenVDB file, in the position stored there. Beyond the file's narrow band, the field's values are constant.
 
         max(b, f/λ),  f the trilinear interpolation of the voxels, λ = max(1, sup |∇f|), b the grid's box
 
-    file: OpenVDB file. Its grid must be a level set of floats or doubles whose axes are aligned with those of space, in any order and direction. Lengths in it are metres. (name of a file)
+    file: OpenVDB file. Its grid must be a level set of floats or doubles whose axes are aligned with those of space, in any order and direction. Its lengths are taken as lengths in the scene's unit. (name of a file)
     grid: Name of the grid; required if the file has several level sets. If several have the same name, append the index: "name[0]", "name[1]". (text; default "")
     """
 
@@ -1594,7 +1594,7 @@ def slab(thickness: float, normal: Sequence[float] | np.ndarray | None = ..., of
 def box_frame(size: Sequence[float] | np.ndarray, thickness: float) -> Field:
     r"""The twelve edges of a box as bars of square cross-section; exact.
 
-        min over the bars of |max(|bar| − size/2, 0)| − depth within the union
+        min over the bars of the distance to the bar, − depth within the union
 
     size: Edge lengths along x, y and z. ([x, y, z] in m; positive)
     thickness: Width of the bars, less than half of the shortest edge. (number in m; positive)
@@ -1613,7 +1613,7 @@ def bowl(radius: float, thickness: float, cut: float | None = ...) -> Field:
 def dodecahedron(radius: float) -> Field:
     r"""A regular dodecahedron about the origin. Each coordinate axis passes through the middles of two opposite edges: on x these edges are parallel to z, on y to x, on z to y. Exact.
 
-        fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)
+        fold to one chamber;  |max((a, b, c), 0)| + min(a, 0),  a the height above the face's plane, b the distance beyond its edge, c beyond its corner
 
     radius: Radius of the sphere through the corners. (number in m; positive)
     """
@@ -1621,7 +1621,7 @@ def dodecahedron(radius: float) -> Field:
 def icosahedron(radius: float) -> Field:
     r"""A regular icosahedron about the origin. Each coordinate axis passes through the middles of two opposite edges: on x these edges are parallel to y, on y to z, on z to x. Exact.
 
-        fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)
+        fold to one chamber;  |max((a, b, c), 0)| + min(a, 0),  a the height above the face's plane, b the distance beyond its edge, c beyond its corner
 
     radius: Radius of the sphere through the corners. (number in m; positive)
     """
@@ -1704,7 +1704,7 @@ def balls(centres: Sequence[Sequence[float]] | np.ndarray | None = ..., radii: f
 
     centres: Centres of the balls, unless they are in a file. (list of [x, y, z] in m; default [])
     radii: Radii of the balls: one number for all, or one per centre. A file may have its own. (number or list of numbers in m; positive; default [])
-    file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line; in metres. Replaces centres. (name of a file; default none)
+    file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line. Coordinates and radii are lengths in the scene's unit. Give either this or the centres. (name of a file; default none)
     """
 
 def union(*of: Field | Expression | Sequence[Field | Expression]) -> Field:
@@ -1785,7 +1785,7 @@ def shell(of: Field | Expression, half_thickness: float) -> Field:
     Section 4.1 of Galin et al. (2026).
 
     of: The field. (field)
-    half_thickness: Half of the wall, t. (number in m; positive)
+    half_thickness: Half of the wall's thickness, t. (number in m; positive)
     """
 
 def merge(of: Object, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Field:
@@ -1796,7 +1796,7 @@ def merge(of: Object, phases: Phase | str | Sequence[Phase | str] | None = ...) 
     Section 4.2 of Galin et al. (2026).
 
     of: The object. (object)
-    phases: The phases to merge; by default all. (phase or list of phases; default none)
+    phases: The phases to merge; by default all but the vacuum. (phase or list of phases; default none)
     """
 
 def displace(of: Field | Expression, amplitude: float, scale: float, octaves: float | None = ...) -> Field:
@@ -1881,7 +1881,7 @@ def grid(of: Object, spacing: Sequence[float] | np.ndarray, count_x: int | None 
 
 @overload
 def endless_grid(of: Field, spacing: Sequence[float] | np.ndarray) -> Field:
-    r"""Copies repeated endlessly along the axes; they must not touch.
+    r"""Copies repeated endlessly along the axes; their bounding boxes must not touch.
 
         max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
 
@@ -1890,7 +1890,7 @@ def endless_grid(of: Field, spacing: Sequence[float] | np.ndarray) -> Field:
     """
 @overload
 def endless_grid(of: Object, spacing: Sequence[float] | np.ndarray) -> Object:
-    r"""Copies repeated endlessly along the axes; they must not touch.
+    r"""Copies repeated endlessly along the axes; their bounding boxes must not touch.
 
         max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' boxes,  g = half the smallest gap between boxes
 
@@ -1942,7 +1942,7 @@ def fibonacci_disk(of: Object, count: int, radius: float, turned: int | None = .
 
 @overload
 def fibonacci_sphere(of: Field, count: int, radius: float) -> Field:
-    r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+    r"""Copies spread evenly over a sphere along a Fibonacci spiral, each with its z axis pointing outward.
 
         copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
@@ -1954,7 +1954,7 @@ def fibonacci_sphere(of: Field, count: int, radius: float) -> Field:
     """
 @overload
 def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
-    r"""Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it.
+    r"""Copies spread evenly over a sphere along a Fibonacci spiral, each with its z axis pointing outward.
 
         copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis along nᵢ; for objects, later copies replace earlier ones
 
@@ -1967,7 +1967,7 @@ def fibonacci_sphere(of: Object, count: int, radius: float) -> Object:
 
 @overload
 def scatter(of: Field, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Field:
-    r"""Copies scattered over the surface of a field, standing on it, with random rotations.
+    r"""Copies scattered over the surface of a field, each with its z axis pointing outward, and with random rotations.
 
         copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace earlier ones
 
@@ -1980,7 +1980,7 @@ def scatter(of: Field, on: Field | Expression, count: int, spacing: float | None
     """
 @overload
 def scatter(of: Object, on: Field | Expression, count: int, spacing: float | None = ..., smallest: float | None = ..., seed: int | None = ...) -> Object:
-    r"""Copies scattered over the surface of a field, standing on it, with random rotations.
+    r"""Copies scattered over the surface of a field, each with its z axis pointing outward, and with random rotations.
 
         copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace earlier ones
 
@@ -2002,7 +2002,7 @@ def extrude(of: Field | Expression, height: float) -> Field:
     """
 
 def revolve(of: Field | Expression, offset: float | None = ...) -> Field:
-    r"""Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact where the field is the exact distance to its cross-section, which must not cross the axis.
+    r"""Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact if the field is the exact distance to its cross-section, and the section is on one side of the axis or symmetric about it.
 
         f(|pxy| − o, z, 0)
 
@@ -2019,7 +2019,7 @@ def bounding_volume(of: Field, margin: float, volume: Field | Expression | None 
     Sections 4.1 and 7.3 of Galin et al. (2026).
 
     of: The field or object to bound. (object)
-    margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
+    margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
     volume: The bounding volume, a field. Default: the bounding box. (field; default none)
     """
 @overload
@@ -2031,7 +2031,7 @@ def bounding_volume(of: Object, margin: float, volume: Field | Expression | None
     Sections 4.1 and 7.3 of Galin et al. (2026).
 
     of: The field or object to bound. (object)
-    margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
+    margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
     volume: The bounding volume, a field. Default: the bounding box. (field; default none)
     """
 
@@ -2046,8 +2046,8 @@ def proxy(of: Field, proxy: Field | Expression, error: float, margin: float, ins
     of: The field or object to replace. (object)
     proxy: The simpler field, g. (field)
     error: Maximum distance e between the two surfaces. (number in m; zero or more)
-    margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
-    inside: For an object: the phase that fills the proxy more than e inside. By default, the proxy is used only outside. (phase or list of phases; default none)
+    margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
+    inside: For an object: the phase that fills the part of the proxy deeper than e. By default, the proxy is used only outside. (phase or list of phases; default none)
     """
 @overload
 def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, inside: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
@@ -2060,13 +2060,13 @@ def proxy(of: Object, proxy: Field | Expression, error: float, margin: float, in
     of: The field or object to replace. (object)
     proxy: The simpler field, g. (field)
     error: Maximum distance e between the two surfaces. (number in m; zero or more)
-    margin: Distance from the volume beyond which the volume's distance is used instead. (number in m; positive)
-    inside: For an object: the phase that fills the proxy more than e inside. By default, the proxy is used only outside. (phase or list of phases; default none)
+    margin: Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child. (number in m; positive)
+    inside: For an object: the phase that fills the part of the proxy deeper than e. By default, the proxy is used only outside. (phase or list of phases; default none)
     """
 
 @overload
 def level_of_detail(*of: Field | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Field:
-    r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
+    r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless distances are chosen for a view (`phasetree render --detail`; in C++, with_levels_of_detail()).
 
         min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
@@ -2075,11 +2075,11 @@ def level_of_detail(*of: Field | Sequence[Object], viewpoint: Sequence[float] | 
     of: The levels, fields or objects, the finest first. (list of objects)
     viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
     distances: Increasing distances at which each level is replaced by the next; one less than there are levels. (list of numbers in m; positive; default [])
-    errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
+    errors: For each coarser level, the distance of its surface from that of the finest level, in increasing order. --detail compares these with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
     """
 @overload
 def level_of_detail(*of: Object | Sequence[Object], viewpoint: Sequence[float] | np.ndarray | None = ..., distances: Sequence[float] | np.ndarray | None = ..., errors: Sequence[float] | np.ndarray | None = ...) -> Object:
-    r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless a picture is rendered with --detail.
+    r"""Levels of detail of a field or an object, from fine to coarse, each used within a range of distances from a viewpoint. Without distances, the finest level is used everywhere, unless distances are chosen for a view (`phasetree render --detail`; in C++, with_levels_of_detail()).
 
         min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike
 
@@ -2088,7 +2088,7 @@ def level_of_detail(*of: Object | Sequence[Object], viewpoint: Sequence[float] |
     of: The levels, fields or objects, the finest first. (list of objects)
     viewpoint: The viewpoint from which distances are measured. ([x, y, z] in m; default [0, 0, 0])
     distances: Increasing distances at which each level is replaced by the next; one less than there are levels. (list of numbers in m; positive; default [])
-    errors: Increasing distances between the surface of each coarser level and that of the finest, which --detail compares with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
+    errors: For each coarser level, the distance of its surface from that of the finest level, in increasing order. --detail compares these with the size of a pixel. They are trusted, not checked. (list of numbers in m; positive; default [])
     """
 
 def set(of: Field | Expression, phase: Phase | str) -> Object:
@@ -2112,7 +2112,7 @@ def thin_shell(of: Field | Expression, shell: Phase | str, inside: Phase | str, 
     of: The field, whose surface is the middle of the wall. (field)
     shell: The phase of the wall. (phase)
     inside: The phase within. (phase)
-    half_thickness: Half of the wall, t. (number in m; positive)
+    half_thickness: Half of the wall's thickness, t. (number in m; positive)
     """
 
 def under(*of: Object | Sequence[Object]) -> Object:
@@ -2148,7 +2148,7 @@ def layered(of: Object, phase: Phase | str, thickness: float) -> Object:
     """
 
 def intersect_shape(of: Object, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Keeps only what lies inside a shape: of all phases, or of some, leaving the others unchanged.
+    r"""Cuts all phases of an object, or only some of them, to the inside of a shape.
 
         φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, −f))
 
@@ -2160,7 +2160,7 @@ def intersect_shape(of: Object, shape: Field | Expression, phases: Phase | str |
     """
 
 def subtract_shape(of: Object, shape: Field | Expression, phases: Phase | str | Sequence[Phase | str] | None = ...) -> Object:
-    r"""Cuts a shape away: from all phases, or from some, leaving the others unchanged.
+    r"""Cuts a shape out of all phases of an object, or out of only some of them.
 
         φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, else min(a₀, min over the cut k of max(aₖ, f))
 
@@ -2172,7 +2172,7 @@ def subtract_shape(of: Object, shape: Field | Expression, phases: Phase | str | 
     """
 
 def change(of: Object, from_: Phase | str, to: Phase | str, shape: Field | Expression | None = ...) -> Object:
-    r"""Turns one phase into another within a shape (everywhere without one).
+    r"""Turns one phase into another inside a shape, or everywhere if no shape is given.
 
         φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀
 
@@ -2203,7 +2203,7 @@ def contact(a: Object, b: Object, phase_a: Phase | str, phase_b: Phase | str, al
     Section 4.4 of Galin et al. (2026).
 
     a: The object A. (object)
-    b: The object B, which replaces A where they are not in contact. (object)
+    b: The object B, which replaces A where they overlap without being in contact. (object)
     phase_a: The phase of A that is in contact. (phase)
     phase_b: The phase of B that is in contact. (phase)
     alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
@@ -2217,7 +2217,7 @@ def contacts(a: Object, b: Object, alpha: float, phases_a: Phase | str | Sequenc
     Section 4.4 of Galin et al. (2026).
 
     a: The object A. (object)
-    b: The object B, which replaces A where they are not in contact. (object)
+    b: The object B, which replaces A where they overlap without being in contact. (object)
     alpha: Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it. (number; at least 0 and at most 1)
     phases_a: The phases of A in contact; by default all. (phase or list of phases; default none)
     phases_b: The phases of B in contact; by default all. (phase or list of phases; default none)
@@ -2399,7 +2399,7 @@ def voronoi(phases: Sequence[Phase | str], size: float, jitter: float | None = .
     """
 
 def labels(file: str | PathLike[str], phases: Sequence[Phase | str], values: Sequence[float] | np.ndarray | None = ..., empty: Sequence[float] | np.ndarray | None = ..., spacing: Sequence[float] | np.ndarray | None = ..., smoothing: float | None = ..., grid: str | None = ...) -> Object:
-    r"""A segmented scan as an object of many phases: whole numbers at voxels, from images or OpenVDB. The centre of each voxel has the phase of its number, and interfaces in between are smooth. Distances are known up to about two voxels and do not grow beyond.
+    r"""A segmented scan as an object of many phases: whole numbers at voxels, from images or OpenVDB. The centre of each voxel has the phase of its number, and interfaces in between are smooth. Distances are clamped to about two voxels.
 
         φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ N⁻¹(blurred share of phase k)/λ,  N the cumulative normal distribution, within the box of the voxels
 
@@ -2420,7 +2420,7 @@ def particles(phases: Sequence[Phase | str], centres: Sequence[Sequence[float]] 
     phases: With centres: one phase for all balls, or one per ball. With a file: the phases that its column `phase` refers to, counted from 0, or one for all. (list of phases)
     centres: Centres of the balls, unless they are in a file. (list of [x, y, z] in m; default [])
     radii: Radii of the balls: one number for all, or one per centre. A file may have its own. (number or list of numbers in m; positive; default [])
-    file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line; in metres. Replaces centres. (name of a file; default none)
+    file: File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names in its first line. Coordinates and radii are lengths in the scene's unit. Give either this or the centres. (name of a file; default none)
     """
 
 @overload

@@ -13,7 +13,7 @@ _IDENTITY = np.hstack([np.eye(3), np.zeros((3, 1))]).astype(np.float32)
 
 
 def _maps(transforms, what):
-    """Converts transforms of any shape that `places` accepts to a float32 array of shape (N, 3, 4)."""
+    """Converts transforms of any shape that `instances_of` accepts to a float32 array of shape (N, 3, 4)."""
     _reference.check_still(transforms, what)
     array = np.asarray(transforms, dtype=np.float32)
     if array.shape[-1:] == (3,) and array.ndim <= 2:
@@ -37,10 +37,10 @@ def _maps(transforms, what):
     return np.ascontiguousarray(array)
 
 
-class Places:
-    """The places of an object or a group in a scene.
+class Instances:
+    """The instances of an object or a group in a scene.
 
-    of: its name. transforms: float32 (N, 3, 4), one matrix [M v] per place, for the affine map from p to M p + v.
+    of: its name. transforms: float32 (N, 3, 4), one matrix [M v] per instance, for the affine map from p to M p + v.
     """
 
     __slots__ = ("of", "transforms")
@@ -57,23 +57,23 @@ class Places:
         return len(self.transforms)
 
     def __eq__(self, other):
-        return isinstance(other, Places) and self.of == other.of and np.array_equal(self.transforms, other.transforms)
+        return isinstance(other, Instances) and self.of == other.of and np.array_equal(self.transforms, other.transforms)
 
     __hash__ = None
 
     def __repr__(self):
-        return f"<{len(self)} places of {self.of!r}>"
+        return f"<{len(self)} instances of {self.of!r}>"
 
 
-def places(of, transforms):
-    """Places an object or a group of a scene, once or many times. Returns Places.
+def instances_of(of, transforms):
+    """Instances of an object or a group, for the `instances` or `groups` of a Scene. Returns Instances.
 
     of: the name of the object or group. transforms: positions of shape (3,) or (N, 3), or matrices of
     affine maps, of shape (3, 4), (4, 4), (N, 3, 4) or (N, 4, 4).
     """
     if not isinstance(of, str) or not of:
-        raise Error(f"places need the name of an object or a group, not {of!r}")
-    return Places(of, _maps(transforms, "transforms"))
+        raise Error(f"instances need the name of an object or a group, not {of!r}")
+    return Instances(of, _maps(transforms, "transforms"))
 
 
 def named_objects(objects):
@@ -85,17 +85,17 @@ def named_objects(objects):
             raise Error(f'the object "{name}" must be an object of phases, or a pair of one and its map, but is {value!r}')
         maps = _maps(transform, f'the map of "{name}"')
         if len(maps) != 1:
-            raise Error(f'the object "{name}" has {len(maps)} maps of its own; use places(…)')
+            raise Error(f'the object "{name}" has {len(maps)} maps of its own; use instances_of(…)')
         result[name] = (placed, maps[0])
     return result
 
 
-def place_lists(value, what):
-    """Converts one Places or several to a tuple."""
-    lists = (value,) if isinstance(value, Places) else tuple(value)
+def instance_lists(value, what):
+    """Converts one Instances or several to a tuple."""
+    lists = (value,) if isinstance(value, Instances) else tuple(value)
     for one in lists:
-        if not isinstance(one, Places):
-            raise Error(f"{what} must be pt.places(…), but {one!r} is among them")
+        if not isinstance(one, Instances):
+            raise Error(f"{what} must be pt.instances_of(…), but {one!r} is among them")
     return lists
 
 
@@ -146,11 +146,11 @@ def written(objects):
     return shapes, placed
 
 
-def without_implicit_places(objects, groups, places):
-    """Removes the implicit places: those that the reader adds for objects that no instance or group names."""
-    named = [one.of for listed in (*groups.values(), places) for one in listed]
+def without_implicit_instances(objects, groups, instances):
+    """Removes the instances that the reader adds for objects that no instance or group names."""
+    named = [one.of for listed in (*groups.values(), instances) for one in listed]
     return [
         one
-        for one in places
+        for one in instances
         if not (one.of in objects and named.count(one.of) == 1 and np.array_equal(one.transforms, _IDENTITY[None]))
     ]

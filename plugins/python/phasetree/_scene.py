@@ -92,9 +92,9 @@ class Scene(Value):
 
     object: an Object; to render it, give its phases materials. A scene has either this object, or `objects`, or only
     meshes. objects: {name: object}, or {name: (object, map)}, where the map is a position or a 3x4 or 4x4 matrix.
-    Objects may touch, but must not overlap. instances: one or several pt.places(name, transforms), which place objects
-    and groups. An object with instances appears only where they place it, not at its own map as well. groups: {name:
-    places}.
+    Objects may touch, but must not overlap. instances: one or several pt.instances_of(name, transforms), which place
+    objects and groups. An object with instances appears only where they place it, not at its own map as well. groups:
+    {name: instances}.
 
     unit: the unit of lengths, "mm", "cm", "m" or "in"; it does not affect rendering. expect: statements, as in "expect"
     of a scene file, which `phasetree check --prove` proves or refutes.
@@ -114,9 +114,9 @@ class Scene(Value):
         self.object = object
         self.objects = _placed.named_objects(objects or {})
         self.groups = {
-            name: _placed.place_lists(places, f'the group "{name}"') for name, places in dict(groups or {}).items()
+            name: _placed.instance_lists(listed, f'the group "{name}"') for name, listed in dict(groups or {}).items()
         }
-        self.instances = _placed.place_lists(instances, "instances")
+        self.instances = _placed.instance_lists(instances, "instances")
         if objects is None and (self.groups or self.instances):
             raise Error("groups and instances place named objects: use Scene(objects={…}, instances=…)")
         self.phases = object.phases if object is not None else _placed.phases_of(self.objects)
@@ -170,7 +170,7 @@ class Scene(Value):
             parts["shapes"] = shapes
         parts["objects"] = objects
         if self.groups:
-            parts["groups"] = {name: [one.written() for one in places] for name, places in self.groups.items()}
+            parts["groups"] = {name: [one.written() for one in listed] for name, listed in self.groups.items()}
         if self.instances:
             parts["instances"] = [one.written() for one in self.instances]
         return json.dumps(parts, ensure_ascii=False, separators=(",", ": "))[:-1].rstrip()
@@ -381,7 +381,7 @@ def _warn_of_what_stands_still(raw, path):
 
 def _load_objects(path):
     folder = os.path.dirname(os.path.abspath(path))
-    maps, groups, places = _phasetree.placed_in_file(path)
+    maps, groups, listed = _phasetree.placed_in_file(path)
     text = _phasetree.with_files(_phasetree.text_of_file(path), path, lambda file: os.path.join(folder, file))
     raw = _phasetree.value_of(text)
     entries = [*raw["objects"]]
@@ -390,8 +390,8 @@ def _load_objects(path):
     objects = {
         name: (_object_with_names(entry, raw, path), matrix[0]) for entry, (name, matrix) in zip(entries, maps)
     }
-    groups = {name: [_placed.Places(*one) for one in listed] for name, listed in groups.items()}
-    instances = _placed.without_implicit_places(objects, groups, [_placed.Places(*one) for one in places])
+    groups = {name: [_placed.Instances(*one) for one in group] for name, group in groups.items()}
+    instances = _placed.without_implicit_instances(objects, groups, [_placed.Instances(*one) for one in listed])
     return raw, {"objects": objects, "groups": groups, "instances": instances}
 
 

@@ -166,9 +166,9 @@ def text():
     out += "".join(["class Object:\n    phases: tuple[Phase, ...]\n", _class(_trees.Object).split("\n", 1)[1]])
     out += _methods(_trees.Object) + "\n"
     out += _class(_scene.Image) + "\n" + _class(_scene.Scene) + "\n"
-    out += "class Places:\n    of: str\n    transforms: np.ndarray\n    def __len__(self) -> int: ...\n\n"
-    out += "def places(of: str, transforms: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> Places:\n"
-    out += textwrap.indent(f'r"""{inspect.getdoc(_placed.places)}"""', "    ") + "\n\n"
+    out += "class Instances:\n    of: str\n    transforms: np.ndarray\n    def __len__(self) -> int: ...\n\n"
+    out += "def instances_of(of: str, transforms: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> Instances:\n"
+    out += textwrap.indent(f'r"""{inspect.getdoc(_placed.instances_of)}"""', "    ") + "\n\n"
     out += _class(_view.View) + "    url: str\n    file: str\n    def __enter__(self) -> View: ...\n"
     out += "    def __exit__(self, *_: object) -> None: ...\n\n"
     out += "def view(what: Object | Scene, *, width: int | None = ..., samples: int | None = ..., threads: int = ..., "

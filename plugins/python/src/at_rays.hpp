@@ -27,7 +27,7 @@ struct FoundCrossing {
 };
 
 inline FoundCrossing found(const InterfaceCells& cells, const embree::CellScene::Hit& hit, const embree::UnitRay& ray) {
-    return {hit.crossing.t_in / ray.length, hit.crossing.from, hit.crossing.to,
+    return {hit.crossing.t_from / ray.length, hit.crossing.from, hit.crossing.to,
             cells.normal(hit.cell, hit.crossing, ray.direction).unit};
 }
 

@@ -106,16 +106,16 @@ py::tuple next_crossing(const PreciseTracer& tracer, const PrecisePoints& origin
             if (const auto found = tracer.first_crossing(ray)) {
                 c = *found;
             } else {
-                c.t_in = std::numeric_limits<double>::infinity();
-                c.p_in = c.p_out = glm::dvec3(nan);
+                c.t_from = std::numeric_limits<double>::infinity();
+                c.p_from = c.p_to = glm::dvec3(nan);
                 c.from = c.to = ray.carried ? *ray.carried : tracer.evaluator().label(ray.origin);
             }
-            t_to[i] = c.t_in;
+            t_to[i] = c.t_from;
             before_to[i] = c.from.index;
             after_to[i] = c.to.index;
             put(normal_to, i, c.normal);
-            put(near_to, i, c.p_in);
-            put(far_to, i, c.p_out);
+            put(near_to, i, c.p_from);
+            put(far_to, i, c.p_to);
         }
     });
     return py::make_tuple(t, before, after, normal, near, far);
@@ -144,7 +144,7 @@ py::tuple crossings(const PreciseTracer& tracer, const PrecisePoints& origins, c
     for (std::size_t i = 0; i <= n; ++i) offsets.mutable_data()[i] = static_cast<std::int64_t>(all->offsets[i]);
     for (std::size_t i = 0; i < total; ++i) {
         const PreciseCrossing& c = all->crossings[i];
-        t.mutable_data()[i] = c.t_in;
+        t.mutable_data()[i] = c.t_from;
         before.mutable_data()[i] = c.from.index;
         after.mutable_data()[i] = c.to.index;
         put(normal.mutable_data(), i, c.normal);

@@ -44,7 +44,7 @@ TEST_CASE("the nearest wins, whichever came first") {
             int of_tree = 0, of_mesh = 0;
             for (const Ray& ray : rays(500, 8)) {
                 const auto c = tracer.first_crossing(ray.origin, ray.direction, 0, 1e30f, std::nullopt, workspace);
-                const float to_tree = c ? c->t_in : infinity;
+                const float to_tree = c ? c->t_from : infinity;
                 const float along = (x - ray.origin.x) / ray.direction.x;
                 if (along > 50) continue;  // beyond the triangle
                 const float to_mesh = along > 0 ? along : infinity;

@@ -48,9 +48,9 @@ std::vector<Crossing> crossings(const InterfaceTracer& tracer, const Ray& ray) {
     Phase phase = tracer.label(p, workspace);
     while (auto c = tracer.first_crossing(p, ray.direction, 0, 1e30f, phase, workspace)) {
         const float before = glm::distance(ray.origin, p);
-        p = c->p_out;
+        p = c->p_to;
         phase = c->to;
-        c->t_in += before;
+        c->t_from += before;
         all.push_back(*c);
         REQUIRE(all.size() < 100);
     }
@@ -99,7 +99,7 @@ void check_collected(Placed& placed, const InterfaceTracer& tracer, Filter& filt
             for (std::size_t k = 0; k < seen.size(); ++k) {
                 REQUIRE(seen[k].from == expected[k].from.index);
                 REQUIRE(seen[k].to == expected[k].to.index);
-                REQUIRE(same_place(seen[k].t, expected[k].t_in, 2 * tracer.resolution()));
+                REQUIRE(same_place(seen[k].t, expected[k].t_from, 2 * tracer.resolution()));
                 if (k > 0) REQUIRE(seen[k].t > seen[k - 1].t);
                 if (k > 0) REQUIRE(seen[k].from == seen[k - 1].to);
                 ++crossed;
@@ -160,7 +160,7 @@ TEST_CASE("so they do where cells are many, which reach into each other") {
                 if (k > 0) REQUIRE(seen[k].from == seen[k - 1].to);
                 if (k > 0) REQUIRE(seen[k].t >= seen[k - 1].t);
                 same = same && seen[k].from == expected[k].from.index && seen[k].to == expected[k].to.index &&
-                       same_place(seen[k].t, expected[k].t_in, 4 * tracer.resolution());
+                       same_place(seen[k].t, expected[k].t_from, 4 * tracer.resolution());
             }
             crossed += static_cast<int>(seen.size());
             // The last one leaves the object.
@@ -194,7 +194,7 @@ TEST_CASE("the crossing that a filter accepts is the hit, and occludes") {
             REQUIRE(occluded_one(placed.scene, marked(ray)) == hits(r));
             if (!hits(r)) continue;
             ++accepted;
-            REQUIRE(same_place(r.ray.tfar, expected[wanted].t_in, 2 * tracer.resolution()));
+            REQUIRE(same_place(r.ray.tfar, expected[wanted].t_from, 2 * tracer.resolution()));
             REQUIRE(r.hit.u == expected[wanted].from.index);
             REQUIRE(r.hit.v == expected[wanted].to.index);
         }
@@ -283,7 +283,7 @@ TEST_CASE("crossings that involve no shown phase are passed") {
                 REQUIRE(hits(r) == (expected != all.end()));
                 REQUIRE(occluded_one(p->scene, marked(ray)) == hits(r));
                 if (!hits(r)) continue;
-                REQUIRE(same_place(r.ray.tfar, expected->t_in, 2 * tracer.resolution()));
+                REQUIRE(same_place(r.ray.tfar, expected->t_from, 2 * tracer.resolution()));
                 REQUIRE(r.hit.u == expected->from.index);
                 REQUIRE(r.hit.v == expected->to.index);
             }
@@ -309,7 +309,7 @@ TEST_CASE("rays end where they enter an opaque phase as they would if it were no
             REQUIRE(hits(r) == !expected.empty());
             REQUIRE(occluded_one(placed.scene, marked(ray)) == hits(r));
             if (!hits(r)) continue;
-            REQUIRE(same_place(r.ray.tfar, expected[0].t_in, 2 * tracer.resolution()));
+            REQUIRE(same_place(r.ray.tfar, expected[0].t_from, 2 * tracer.resolution()));
             REQUIRE(r.hit.u == expected[0].from.index);
             REQUIRE(r.hit.v == expected[0].to.index);
             entered += set.contains(expected[0].to);

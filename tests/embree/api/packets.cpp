@@ -102,7 +102,7 @@ TEST_CASE("hits are the crossings of the whole object's program, whatever Embree
         REQUIRE(occluded_one(placed.scene, rayhit(ray)) == hits(r));
         if (!expected) continue;
         ++hit;
-        REQUIRE(same_place(r.ray.tfar, expected->t_in, tracer.resolution()));
+        REQUIRE(same_place(r.ray.tfar, expected->t_from, tracer.resolution()));
         REQUIRE(r.hit.u == expected->from.index);
         REQUIRE(r.hit.v == expected->to.index);
         REQUIRE(r.hit.geomID == placed.id);

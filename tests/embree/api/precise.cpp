@@ -51,10 +51,10 @@ TEST_CASE("points and rays in double precision are those of C++") {
             continue;
         }
         ++crossings;
-        CHECK(found[i].tFrom == expected->t_in);
-        CHECK(found[i].tTo == expected->t_out);
-        CHECK(vector_of(found[i].pointFrom) == expected->p_in);
-        CHECK(vector_of(found[i].pointTo) == expected->p_out);
+        CHECK(found[i].tFrom == expected->t_from);
+        CHECK(found[i].tTo == expected->t_to);
+        CHECK(vector_of(found[i].pointFrom) == expected->p_from);
+        CHECK(vector_of(found[i].pointTo) == expected->p_to);
         CHECK(vector_of(found[i].normal) == expected->normal);
         CHECK(found[i].to == expected->to.index);
     }

@@ -37,7 +37,7 @@ std::vector<unsigned> expected_walk(const InterfaceTracer& tracer, const Ray& ra
     std::vector<unsigned> entered;
     glm::vec3 p = ray.origin;
     while (const auto c = tracer.first_crossing(p, ray.direction, 0, 1e30f, phase, workspace)) {
-        p = c->p_out;
+        p = c->p_to;
         phase = c->to;
         entered.push_back(phase.index);
         REQUIRE(entered.size() < 200);

@@ -66,7 +66,7 @@ void trace(const InterfaceTracer& tracer, const glm::vec3& origin, const glm::ve
         promised(c->from == phase, "a crossing leaves the phase that was carried");
         promised(c->from != c->to, "a crossing is a change of phase");
         (void)tracer.normal(*c, direction);
-        start = c->p_out;
+        start = c->p_to;
         phase = c->to;
     }
 }

@@ -77,8 +77,8 @@ TEST_CASE("the first surface of a ball: where it is, how it faces, which phases 
         CHECK(glm::distance(record.first->position, {0, -half, z}) < 1e-4f);
         CHECK(glm::distance(record.first->normal, glm::vec3(0, -half, z) / 2.0f) < 1e-3f);
         CHECK(record.first->object == 0);
-        CHECK(record.first->phase_left == phasetree::vacuum);
-        CHECK(record.first->phase_entered == phasetree::Phase{1});
+        CHECK(record.first->phase_from == phasetree::vacuum);
+        CHECK(record.first->phase_to == phasetree::Phase{1});
         CHECK(glm::distance(record.first->albedo, {0.6f, 0.3f, 0.2f}) < 1e-5f);
         REQUIRE(record.behind);
         CHECK(record.behind->position == record.first->position);
@@ -90,7 +90,7 @@ TEST_CASE("the first surface of a ball: where it is, how it faces, which phases 
     const PathRecord floor = one_path(scene, {0, -10, 0}, {0, 1, -1}).record;
     REQUIRE(floor.first);
     CHECK(floor.first->object == 1);
-    CHECK_FALSE(floor.first->phase_entered);
+    CHECK_FALSE(floor.first->phase_to);
     CHECK(floor.first->distance == doctest::Approx(3 * std::sqrt(2.0)).epsilon(1e-5));
     CHECK(glm::distance(floor.first->albedo, {0.1f, 0.2f, 0.3f}) < 1e-5f);
     CHECK_FALSE(one_path(scene, {0, -10, 0}, {0, 0, 1}).record.first);
@@ -112,7 +112,7 @@ TEST_CASE("the length of the camera ray in a slab of glass, and what is seen beh
         seen.add(path.record.behind ? 1.0 : 0.0);
         REQUIRE(path.record.first);
         CHECK(path.record.first->distance == doctest::Approx(2).epsilon(1e-4));
-        CHECK(path.record.first->phase_entered == phasetree::Phase{1});
+        CHECK(path.record.first->phase_to == phasetree::Phase{1});
         CHECK(path.record.first->albedo.r == doctest::Approx(1).epsilon(1e-5));
         if (path.record.behind) CHECK(path.record.behind->object == 1);
     });

@@ -165,19 +165,19 @@ TEST_CASE("a ball: depth, position, normal, albedo, numbers, lengths") {
         }
         // The camera looks along y, so the depth along its axis follows from y alone.
         CHECK(depth[p] == doctest::Approx(y[p] + 5).epsilon(1e-5));
-        CHECK(channel(image, "phase_left.X")[p] == 0);
+        CHECK(channel(image, "phase_from.X")[p] == 0);
         CHECK(channel(image, "instance.X")[p] == 0);
         if (object == 0) {
             ++on_ball;
             CHECK(glm::length(glm::vec3(x[p], y[p], z[p])) == doctest::Approx(1).epsilon(1e-4));
-            CHECK(channel(image, "phase_entered.X")[p] == 1);
+            CHECK(channel(image, "phase_to.X")[p] == 1);
         } else {
             ++on_floor;
             CHECK(object == 1);
             // Points of meshes are recorded where rays leave them, with an offset of 10⁻⁵ of the largest coordinate or
             // of the object's diagonal.
             CHECK(std::abs(z[p] + 1.5f) <= 1.01e-5f * std::max({3.4642f, std::abs(x[p]), std::abs(y[p])}) + 2e-7f);
-            CHECK(channel(image, "phase_entered.X")[p] == -1);
+            CHECK(channel(image, "phase_to.X")[p] == -1);
         }
     }
     CHECK(on_ball > 20);

@@ -151,14 +151,14 @@ TEST_CASE("the density is what of the light comes from a square") {
 
 TEST_CASE("a guide tells places and sides apart, and knows nothing where nothing was found") {
     Uniform random(6);
-    std::vector<Finding> findings;
+    std::vector<GuideSample> samples;
     // On a floor, light comes from +x where x > 0 and from −x where x < 0; below a ceiling it comes from −y.
     for (int i = 0; i < 20000; ++i) {
         const glm::vec3 at(random() - 0.5f, random() - 0.5f, 0.0f);
-        findings.push_back({at, facing_of({0, 0, 1}), glm::normalize(glm::vec3(at.x > 0 ? 1 : -1, 0.1f, 0.3f)), 1.0f});
-        findings.push_back({at, facing_of({0.1f, 0.1f, -1}), glm::normalize(glm::vec3(0.1f, -1, -0.3f)), 1.0f});
+        samples.push_back({at, facing_of({0, 0, 1}), glm::normalize(glm::vec3(at.x > 0 ? 1 : -1, 0.1f, 0.3f)), 1.0f});
+        samples.push_back({at, facing_of({0.1f, 0.1f, -1}), glm::normalize(glm::vec3(0.1f, -1, -0.3f)), 1.0f});
     }
-    const Guide guide(findings);
+    const Guide guide(samples);
     const auto at = [&](const glm::vec3& position, const glm::vec3& normal, const glm::vec3& direction) {
         const DirectionTree* tree = guide.at(position, facing_of(normal));
         REQUIRE(tree != nullptr);
@@ -174,23 +174,23 @@ TEST_CASE("a guide tells places and sides apart, and knows nothing where nothing
     CHECK(at({100, 100, 100}, {0, 0, 1}, {1, 0.1f, 0.3f}) > 10.0f);
 }
 
-TEST_CASE("a handful of findings tells nothing, and one that is very bright little") {
-    std::vector<Finding> findings(60, {{0, 0, 0}, 0, {0, 0, 1}, 1.0f});
-    CHECK(Guide(findings).at({0, 0, 0}, 0) == nullptr);
-    findings.resize(1000, findings[0]);
-    findings.push_back({{0, 0, 0}, 0, {0, 1, 0}, 1e29f});
-    const Guide guide(findings);
+TEST_CASE("a handful of samples tells nothing, and one that is very bright little") {
+    std::vector<GuideSample> samples(60, {{0, 0, 0}, 0, {0, 0, 1}, 1.0f});
+    CHECK(Guide(samples).at({0, 0, 0}, 0) == nullptr);
+    samples.resize(1000, samples[0]);
+    samples.push_back({{0, 0, 0}, 0, {0, 1, 0}, 1e29f});
+    const Guide guide(samples);
     const DirectionTree* tree = guide.at({0, 0, 0}, 0);
     REQUIRE(tree != nullptr);
     CHECK(tree->pdf({0, 1, 0}) < tree->pdf({0, 0, 1}));
     // Infinite coordinates are divided in bounded time.
-    for (int i = 0; i < 5000; ++i) findings.push_back({{1e30f * static_cast<float>(i % 7), 0, 0}, 0, {0, 0, 1}, 1.0f});
-    CHECK(Guide(findings).at({0, 0, 0}, 0) != nullptr);
+    for (int i = 0; i < 5000; ++i) samples.push_back({{1e30f * static_cast<float>(i % 7), 0, 0}, 0, {0, 0, 1}, 1.0f});
+    CHECK(Guide(samples).at({0, 0, 0}, 0) != nullptr);
 }
 
-TEST_CASE("findings all at one place, and of one direction, are no reason to divide forever") {
-    std::vector<Finding> findings(50000, {{1, 2, 3}, 0, {0, 0, 1}, 1.0f});
-    const Guide guide(findings);
+TEST_CASE("samples all at one place, and of one direction, are no reason to divide forever") {
+    std::vector<GuideSample> samples(50000, {{1, 2, 3}, 0, {0, 0, 1}, 1.0f});
+    const Guide guide(samples);
     REQUIRE(guide.at({1, 2, 3}, 0) != nullptr);
     CHECK(std::isfinite(guide.at({1, 2, 3}, 0)->pdf({0, 0, 1})));
     CHECK(glm::length(guide.at({1, 2, 3}, 0)->sample({0.5f, 0.5f}).direction - glm::vec3(0, 0, 1)) < 0.05f);

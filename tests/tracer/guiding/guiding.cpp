@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "guiding/path_findings.hpp"
+#include "guiding/path_guide_samples.hpp"
 #include "integrator/guided.hpp"
 #include "render/guide_training.hpp"
 #include "shading/bsdf/coating_albedo.hpp"
@@ -120,33 +120,33 @@ TEST_CASE("half of the directions are guided, and the albedo is what it was") {
 }
 
 TEST_CASE("light counts for the points that the path had left before, divided by the throughput that it had there") {
-    PathFindings of_path;
-    std::vector<Finding> findings;
+    PathGuideSamples of_path;
+    std::vector<GuideSample> samples;
     of_path.add_light(100);  // directly visible to the camera
     of_path.leave({1, 0, 0}, 0, {0, 0, 1}, 2.0f, 0.5f);
     of_path.add_light(3);
     of_path.leave({2, 0, 0}, 1, {0, 1, 0}, 1.0f, 0.25f);
     of_path.add_light(1);
     of_path.leave({3, 0, 0}, 1, {0, 1, 0}, 1.0f, 0.25f);  // no light arrives from there
-    of_path.take(findings);
-    REQUIRE(findings.size() == 2);
-    CHECK(findings[0].point.x == 1.0f);
-    CHECK(findings[0].light == doctest::Approx((3 + 1) * 2.0 / 0.5));
-    CHECK(findings[1].point.x == 2.0f);
-    CHECK(findings[1].light == doctest::Approx(1 * 1.0 / 0.25));
+    of_path.take(samples);
+    REQUIRE(samples.size() == 2);
+    CHECK(samples[0].point.x == 1.0f);
+    CHECK(samples[0].light == doctest::Approx((3 + 1) * 2.0 / 0.5));
+    CHECK(samples[1].point.x == 2.0f);
+    CHECK(samples[1].light == doctest::Approx(1 * 1.0 / 0.25));
     // The next path keeps nothing of this one.
     of_path.add_light(5);
-    of_path.take(findings);
-    CHECK(findings.size() == 2);
+    of_path.take(samples);
+    CHECK(samples.size() == 2);
     // Only the first points of long paths count. Points without throughput do not count, nor does infinite light.
-    findings.clear();
+    samples.clear();
     of_path.leave({0, 0, 0}, 0, {0, 0, 1}, 1.0f, 0.0f);
     for (int i = 0; i < 40; ++i)
         of_path.leave({static_cast<float>(i), 0, 0}, 0, {0, 0, 1}, 1.0f, i == 3 ? 1e-38f : 1.0f);
     of_path.add_light(2);
-    of_path.take(findings);
-    CHECK(findings.size() == 15);
-    for (const Finding& finding : findings) CHECK(finding.light == 2.0f);
+    of_path.take(samples);
+    CHECK(samples.size() == 15);
+    for (const GuideSample& sample : samples) CHECK(sample.light == 2.0f);
 }
 
 TEST_CASE("in the next room paths that are guided find the same light with less noise") {
@@ -207,14 +207,14 @@ TEST_CASE("a guide that is wrong everywhere costs noise within bounds, and no li
         R"("lights": [], "camera": {"position": [0, -0.9, 0], "look_at": [0, 0, 0]}, "render": {"max_depth": 100000})");
     const World world(scene);
     Uniform random(11);
-    std::vector<Finding> findings;
+    std::vector<GuideSample> samples;
     for (int i = 0; i < 60'000; ++i) {
         glm::vec3 at = 2.0f * glm::vec3(random(), random(), random()) - 1.0f, normal(0.0f);
         normal[i % 3] = i % 2 == 0 ? 1.0f : -1.0f;
         at[i % 3] = -normal[i % 3];
-        findings.push_back({at, facing_of(normal), glm::normalize(normal + glm::vec3(0.4f, 0.3f, 0.2f)), 1.0f});
+        samples.push_back({at, facing_of(normal), glm::normalize(normal + glm::vec3(0.4f, 0.3f, 0.2f)), 1.0f});
     }
-    const Guide guide(findings);
+    const Guide guide(samples);
     const Moments m = radiance_along(world, scene, {0, -0.9f, 0}, {0.5f, 1, 0.3f}, 40'000, 3, {.guide = &guide})[0];
     CAPTURE(m.mean());
     CAPTURE(m.standard_error());

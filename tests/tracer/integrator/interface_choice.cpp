@@ -66,7 +66,7 @@ TEST_CASE("each outcome is as likely as the choice says, and so counts as often 
             REQUIRE(choice.u_lobe < 1.0f);
             if (bsdf.sample(wo, choice.u_lobe, {})->transmitted) continue;
             ++reflected;
-            odds = choice.odds_over_fresnel;
+            odds = choice.probability_over_fresnel;
             counted += 1 / static_cast<double>(odds);
         }
         // Only the lamp is bright, so it gets half of the probability.
@@ -88,7 +88,7 @@ TEST_CASE("what glows, and a flame, are chosen as lamps are") {
         REQUIRE(surface);
         const glm::vec3 wo = surface->frame().to_local(glm::normalize(from));
         const InterfaceChoice choice = chosen_by_lights(scene, *surface, surface->bsdf(), surface->frame(), wo, 0.0f);
-        return choice.odds_over_fresnel * surface->bsdf().sample(wo, 0.0f, {})->pdf;
+        return choice.probability_over_fresnel * surface->bsdf().sample(wo, 0.0f, {})->pdf;
     };
     const std::string mirrored = "[-2, -3.4641016, 0]", behind_pane = "[-2, 3.4641016, 0]", elsewhere = "[5, -2, 5]";
     for (const char* const material : {R"({"glowing": {"radiance": 3}})",
@@ -109,14 +109,15 @@ TEST_CASE("where no light is seen, or all of it is reflected, the choice is Fres
     const glm::vec3 wo = surface->frame().to_local(glm::normalize(from));
     const InterfaceChoice choice = chosen_by_lights(scene, *surface, surface->bsdf(), surface->frame(), wo, 0.3f);
     CHECK(choice.u_lobe == 0.3f);
-    CHECK(choice.odds_over_fresnel == 1.0f);
+    CHECK(choice.probability_over_fresnel == 1.0f);
 
     const Scene lit = pane("", R"({"constant": {}})");
     const World lit_world(lit);
     const auto within = surface_met(lit_world, {0, 0, 0}, {1, 0.1f, 0});
     REQUIRE(within);
     const glm::vec3 grazing = within->frame().to_local(-glm::normalize(glm::vec3(1, 0.1f, 0)));
-    CHECK(chosen_by_lights(lit, *within, within->bsdf(), within->frame(), grazing, 0.7f).odds_over_fresnel == 1.0f);
+    CHECK(chosen_by_lights(lit, *within, within->bsdf(), within->frame(), grazing, 0.7f).probability_over_fresnel ==
+          1.0f);
 }
 
 TEST_CASE("a lamp in a pane is as bright as theory says, with little noise") {

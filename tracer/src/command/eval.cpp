@@ -56,7 +56,7 @@ void add_eval(CLI::App& app, Run& run) {
         "contains the point, and the number of its copy.\n"
         "\n"
         "The whole scene file is checked, but it may lack a camera and lights, and the files of\n"
-        "lights, meshes, textures and voxels are not opened.");
+        "lights, meshes, textures and media are not opened.");
     const auto file = add_scene_file(*command);
     auto object = std::make_shared<std::optional<std::string>>();
     add_object(*command, *object);

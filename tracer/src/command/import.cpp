@@ -163,12 +163,11 @@ void add_import(CLI::App& app, Run& run) {
     command->add_option("-o,--output", options->output, "Scene file, .json")->required()->option_text("FILE");
     command->add_flag("--force", options->force, "Replace existing files");
     command->add_flag("--solid", options->choices.include_panes,
-                      "Make closed objects of clear materials without volume phases, too; otherwise they are meshes of "
-                      "thin_glass");
-    command->add_flag(
-        "!--keep-gaps", options->choices.closes_gaps,
-        "Keep thin gaps beside liquids; otherwise the node close_gaps fills those that cover a tenth of a "
-        "surface");
+                      "Turn closed objects whose clear material lacks KHR_materials_volume into phases, too; by "
+                      "default, they become panes of thin_glass");
+    command->add_flag("!--keep-gaps", options->choices.closes_gaps,
+                      "Keep thin gaps beside liquids; by default, the node close_gaps fills those that cover at least "
+                      "a tenth of either surface");
     command->callback([=, &run] { run = [=] { return import_file(*options); }; });
 }
 

@@ -165,7 +165,7 @@ void add_info(CLI::App& app, Run& run) {
     command->footer(
         "If the scene has several objects, info lists them; --object chooses one. If it has only\n"
         "meshes, info lists those. The whole scene file is checked, but it may lack a camera and\n"
-        "lights, and the files of lights, meshes, textures and voxels are not opened.");
+        "lights, and the files of lights, meshes, textures and media are not opened.");
     add_object(*command, options->object);
     command->add_flag("--json", options->as_json, "Print JSON");
     auto* const with_cells =

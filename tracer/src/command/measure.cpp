@@ -141,7 +141,7 @@ void add_measure(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("measure", "Print volumes, masses, centres of mass and areas of phases");
     command->footer(
         "Prints an interval and an estimate for each number. Volumes, masses, centres of mass, moments\n"
-        "of inertia and sides of bounding boxes certainly lie in their intervals. Areas are statistical\n"
+        "of inertia and bounding boxes are guaranteed to lie in their intervals. Areas are statistical\n"
         "estimates with a standard error.\n"
         "\n"
         "Printed lengths are in metres and masses in kilograms, whatever the unit of the scene is. With\n"
@@ -149,7 +149,7 @@ void add_measure(CLI::App& app, Run& run) {
         "far.\n"
         "\n"
         "The whole scene file is checked, but it may lack a camera and lights, and the files of\n"
-        "lights, meshes, textures and voxels are not opened.");
+        "lights, meshes, textures and media are not opened.");
     const auto file = add_scene_file(*command);
     auto options = std::make_shared<MeasureCommand>();
     add_object(*command, options->object);
@@ -159,11 +159,12 @@ void add_measure(CLI::App& app, Run& run) {
         ->check(number_in(1e-9, 1))
         ->option_text("T");
     add_duration(*command, "--time", options->seconds,
-                 "Stop after this time, whatever is known by then (default: 30s)");
+                 "Time limit, after which the results so far are printed (default: 30s)");
     add_length_unit(*command, options->unit);
     add_densities(*command, options->densities);
-    command->add_flag("--thickness", options->finds_thickness,
-                      "Also find how thin each phase is where it is thinnest; takes up to --time once more");
+    command->add_flag(
+        "--thickness", options->finds_thickness,
+        "Also print the smallest thickness of each phase, and where it is; this can take as long again as --time");
     command->add_flag("--json", options->as_json, "Print JSON");
     command->callback([=, &run] { run = [=] { return measure_scene(*file, *options); }; });
 }

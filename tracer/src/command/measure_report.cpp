@@ -98,7 +98,7 @@ void print_table(const MeasureReport& report) {
     put("{:<20}{}\n", "scene", report.scene);
     put("{:<20}{}\n", "stopped because", explanation_of(m.end));
     put("{:<20}{}\n", "boxes", m.boxes);
-    put("\nEach line has an estimate, and the interval in which the number certainly lies. Areas are statistical\n"
+    put("\nEach line has an estimate, and an interval that is guaranteed to contain the number. Areas are statistical\n"
         "estimates. Moments of inertia are about the centre of mass; phases without a density count with density 1.\n");
     for (const MeasuredPhase& p : m.phases) print_phase(report, p);
     if (m.all) {

@@ -3,7 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include "command/numbers.hpp"
 #include "command/streams.hpp"
@@ -23,8 +26,15 @@ std::vector<ReferencePage> pages_from(const std::filesystem::path& folder) {
     }
 }
 
-// The parts of the reference with these names: chapters, or kinds in any chapter.
-std::vector<Chapter> chapters_about(const std::vector<std::string>& names) {
+// Members of a scene file whose kinds are in a chapter with another name.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> chapters_of_members{
+    {{"camera", "cameras"}, {"phases", "materials"}, {"tree", "objects"}}};
+
+// The parts of the reference with these names: chapters, members of a scene file, or kinds in any chapter.
+std::vector<Chapter> chapters_about(std::vector<std::string> names) {
+    for (std::string& name : names)
+        for (const auto& [member, chapter] : chapters_of_members)
+            if (name == member) name = chapter;
     std::vector<Chapter> result;
     std::set<std::string> known, found;
     for (Chapter& chapter : scene_chapters()) {
@@ -61,7 +71,8 @@ void add_nodes(CLI::App& app, Run& run) {
     CLI::Option* parts = command->add_option(
         "NAME", *names, "Print only these nodes, materials, lights, …, or chapters, such as sphere or lights");
     auto* first = command->add_option("--markdown", *folder,
-                                      "Write the pages of scenes/reference to this folder, from the examples in it");
+                                      "Write the pages of the scene reference to this folder, which must contain the "
+                                      "examples, as scenes/reference does");
     first->type_name("FOLDER")->excludes(parts);
     command->add_flag("--json-schema", *schema, "Print a JSON Schema for editors, scenes/scene.schema.json")
         ->excludes(first)

@@ -28,7 +28,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // A statement, and what is known about it.
-struct Finding {
+struct Outcome {
     Expectation expectation;
     Proof proof;
 };
@@ -63,36 +63,38 @@ std::string point_text(const glm::vec3& p) {
 }
 
 // The text about the points, which follows the statement and the reason.
-std::string witness_text(const Finding& f, const PhaseNames& names) {
-    const std::vector<Witness>& points = f.proof.witnesses;
+std::string witness_text(const Outcome& outcome, const PhaseNames& names) {
+    const std::vector<Witness>& points = outcome.proof.witnesses;
     if (points.empty()) return "";
     const auto text = [&](const Witness& w) {
         return fmt::format("\"{}\" at {}", names[w.phase], point_text(w.point));
     };
     if (points.size() == 1) return fmt::format("; see {}", text(points.front()));
-    if (std::holds_alternative<IsClosed>(f.expectation.statement))
+    if (std::holds_alternative<IsClosed>(outcome.expectation.statement))
         return fmt::format("; it begins in {} and has {} points (--json prints them)", text(points.front()),
                            points.size());
     return fmt::format("; see {} and {}", text(points.front()), text(points.back()));
 }
 
-std::string interval_text(const Finding& f) {
-    if (!std::holds_alternative<HasVolume>(f.expectation.statement) || f.proof.measured.high == 0) return "";
-    const Measured& m = f.proof.measured;
+std::string interval_text(const Outcome& outcome) {
+    if (!std::holds_alternative<HasVolume>(outcome.expectation.statement) || outcome.proof.measured.high == 0)
+        return "";
+    const Measured& m = outcome.proof.measured;
     if (!std::isfinite(m.low) || !std::isfinite(m.high)) return "";
-    return fmt::format("; it is from {:.7g} to {:.7g} {}", m.low / f.expectation.unit, m.high / f.expectation.unit,
-                       f.expectation.unit_name);
+    return fmt::format("; it is from {:.7g} to {:.7g} {}", m.low / outcome.expectation.unit,
+                       m.high / outcome.expectation.unit, outcome.expectation.unit_name);
 }
 
-void print_text(const std::string& scene, const Document& document, const std::vector<Finding>& findings,
+void print_text(const std::string& scene, const Document& document, const std::vector<Outcome>& outcomes,
                 const PhaseNames& names) {
-    for (const Finding& f : findings) {
+    for (const Outcome& outcome : outcomes) {
         const std::string verdict =
-            fmt::format("{}: {}{}{}{}{}", name_of(f.proof.verdict), f.expectation.text,
-                        f.proof.reason.empty() ? "" : ": ", f.proof.reason, interval_text(f), witness_text(f, names));
+            fmt::format("{}: {}{}{}{}{}", name_of(outcome.proof.verdict), outcome.expectation.text,
+                        outcome.proof.reason.empty() ? "" : ": ", outcome.proof.reason, interval_text(outcome),
+                        witness_text(outcome, names));
         std::string place = scene;
-        if (f.expectation.offset > 0) {
-            const SceneError e = document.error(f.expectation.offset, "");
+        if (outcome.expectation.offset > 0) {
+            const SceneError e = document.error(outcome.expectation.offset, "");
             place = fmt::format("{}:{}:{}", scene, e.line(), e.column());
         }
         put("{}: {}\n", place, verdict);
@@ -150,27 +152,27 @@ Json json_of(const PlacedEffect& placed, const PhaseNames& names) {
     return one;
 }
 
-void print_json(const std::string& scene, const Document& document, const std::vector<Finding>& findings,
+void print_json(const std::string& scene, const Document& document, const std::vector<Outcome>& outcomes,
                 const std::vector<PlacedEffect>& effects, const PhaseNames& names) {
     Json json{{"scene", scene}};
     Json& list = json["statements"] = Json::array();
-    for (const Finding& f : findings) {
+    for (const Outcome& outcome : outcomes) {
         Json one;
-        if (f.expectation.offset > 0) {
-            const SceneError place = document.error(f.expectation.offset, "");
+        if (outcome.expectation.offset > 0) {
+            const SceneError place = document.error(outcome.expectation.offset, "");
             one["line"] = place.line();
             one["column"] = place.column();
         }
-        one["statement"] = Json::parse(f.expectation.text, nullptr, false, true);
-        one["verdict"] = name_of(f.proof.verdict);
-        if (!f.proof.reason.empty()) one["reason"] = f.proof.reason;
-        if (f.proof.resolution > 0) one["resolution"] = f.proof.resolution;
-        if (std::holds_alternative<HasVolume>(f.expectation.statement))
-            one["interval"] = {{"low", f.proof.measured.low / f.expectation.unit},
-                               {"high", f.proof.measured.high / f.expectation.unit},
-                               {"unit", f.expectation.unit_name}};
+        one["statement"] = Json::parse(outcome.expectation.text, nullptr, false, true);
+        one["verdict"] = name_of(outcome.proof.verdict);
+        if (!outcome.proof.reason.empty()) one["reason"] = outcome.proof.reason;
+        if (outcome.proof.resolution > 0) one["resolution"] = outcome.proof.resolution;
+        if (std::holds_alternative<HasVolume>(outcome.expectation.statement))
+            one["interval"] = {{"low", outcome.proof.measured.low / outcome.expectation.unit},
+                               {"high", outcome.proof.measured.high / outcome.expectation.unit},
+                               {"unit", outcome.expectation.unit_name}};
         Json& points = one["witnesses"] = Json::array();
-        for (const Witness& w : f.proof.witnesses)
+        for (const Witness& w : outcome.proof.witnesses)
             points.push_back({{"point", {w.point.x, w.point.y, w.point.z}}, {"phase", names[w.phase]}});
         list.push_back(one);
     }
@@ -179,10 +181,10 @@ void print_json(const std::string& scene, const Document& document, const std::v
     put("{}\n", json.dump(2));
 }
 
-int code_of(const std::vector<Finding>& findings, bool is_expected) {
+int code_of(const std::vector<Outcome>& outcomes, bool is_expected) {
     if (!is_expected) return exit_code::success;
     const auto has = [&](Verdict v) {
-        return std::ranges::any_of(findings, [&](const Finding& f) { return f.proof.verdict == v; });
+        return std::ranges::any_of(outcomes, [&](const Outcome& outcome) { return outcome.proof.verdict == v; });
     };
     if (has(Verdict::refuted)) return exit_code::refuted;
     return has(Verdict::undecided) ? exit_code::undecided : exit_code::success;
@@ -249,16 +251,16 @@ int prove_scene(const SceneFile& file, const ProveCommand& chosen) {
     options.cancelled = [] { return interrupted(); };
     options.progress = [&](float share) { progress.tell(share); };
     const std::vector<Proof> proofs = made_of_tree(document, [&] { return prove(tree.object, statements, options); });
-    std::vector<Finding> findings;
-    for (std::size_t i = 0; i < expected.size(); ++i) findings.push_back({expected[i], proofs[i]});
+    std::vector<Outcome> outcomes;
+    for (std::size_t i = 0; i < expected.size(); ++i) outcomes.push_back({expected[i], proofs[i]});
     const std::vector<PlacedEffect> effects = placed_effects(proofs.back().nodes, given.places);
     warn_of_dead_nodes(effects, given.places);
     warn_of_loose_bounds(file.shown(), document, proofs[expected.size()]);
     if (chosen.as_json)
-        print_json(file.shown(), document, findings, effects, tree.phases);
+        print_json(file.shown(), document, outcomes, effects, tree.phases);
     else
-        print_text(file.shown(), document, findings, tree.phases);
-    if (!interrupted()) return code_of(findings, given.is_expected);
+        print_text(file.shown(), document, outcomes, tree.phases);
+    if (!interrupted()) return code_of(outcomes, given.is_expected);
     say("phasetree: interrupted; printed what was known by then\n");
     return code_of_interruption(false);
 }

@@ -256,14 +256,14 @@ void add_slice(CLI::App& app, Run& run) {
         "\n"
         ".svg: outlines in the scene's coordinates, one path per phase, with areas and a scale bar.\n"
         "Phases in contact share their outlines, so there are no gaps. A point farther than the\n"
-        "tolerance from every outline is certainly in the phase drawn there. Where this cannot be\n"
-        "proven, it is reported.\n"
+        "tolerance from every outline is guaranteed to be in the phase drawn there. Places where this\n"
+        "cannot be proven are reported.\n"
         "\n"
         ".png: a palette of the phases, and for each pixel the index of the phase at its centre.\n"
         "\n"
         "With several objects, their union is cut; --object chooses one. The whole scene file is\n"
         "checked, but it may lack a camera and lights, and the files of lights, meshes, textures and\n"
-        "voxels are not opened.");
+        "media are not opened.");
     const auto file = add_scene_file(*command);
     auto options = std::make_shared<SliceCommand>();
     add_object(*command, options->object);

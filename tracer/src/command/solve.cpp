@@ -223,7 +223,8 @@ void add_solve_options(CLI::App& command, SolveCommand& options) {
                     "Stop when the bracket is at most this wide (default: a thousandth of the first bracket)")
         ->check(number_in(1e-12, 1e12))
         ->option_text("WIDTH");
-    add_duration(command, "--time", options.seconds, "Stop after this time, whatever is known by then (default: 120s)");
+    add_duration(command, "--time", options.seconds,
+                 "Time limit, after which the results so far are printed (default: 120s)");
     add_length_unit(command, options.unit);
     add_densities(command, options.densities);
     command
@@ -244,13 +245,13 @@ void add_solve(CLI::App& app, Run& run) {
         "length, and a mass in kilograms. If the number is the value of a keyframe, the object is measured at\n"
         "the time of this keyframe, unless --at chooses another.\n"
         "\n"
-        "The bracket is halved repeatedly. An end moves only if the certain interval of the volume lies\n"
-        "entirely on one side of the target. So at one end of the final bracket the volume is certainly\n"
-        "below the target, at the other above it, and one solution is in between. There may be\n"
+        "The bracket is halved repeatedly. An end moves only if the guaranteed interval of the volume lies\n"
+        "entirely on one side of the target. So the volume is proven to be below the target\n"
+        "at one end of the final bracket, and above it at the other. One solution is in between; there may be\n"
         "others. The value printed lies in the bracket. Ctrl-C prints the bracket so far.\n"
         "\n"
         "The whole scene file is checked, but it may lack a camera and lights, and the files of\n"
-        "lights, meshes, textures and voxels are not opened.");
+        "lights, meshes, textures and media are not opened.");
     const auto file = add_scene_file(*command);
     auto options = std::make_shared<SolveCommand>();
     add_object(*command, options->object);

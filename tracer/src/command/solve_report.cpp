@@ -73,9 +73,9 @@ void print_solution(const SolveReport& report) {
     if (r.high) print_point("upper end", *r.high, q);
     if (r.undecided) print_point("undecided", *r.undecided, q);
     if (!r.has_bracket()) return;
-    put("\nEach line has the measure's estimate, and the interval in which it certainly lies. At one end of the "
-        "bracket\n"
-        "it is certainly below the target, at the other above it. There is at least one crossing in between.\n");
+    put("\nEach line has an estimate of the measure, and an interval that is guaranteed to contain it. At one end of\n"
+        "the bracket, the interval is below the target, and at the other above it. The measure has the target value\n"
+        "at least once in between.\n");
 }
 
 void print_solution_json(const SolveReport& report) {

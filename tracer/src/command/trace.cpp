@@ -47,15 +47,15 @@ int trace(const SceneFile& file, const std::optional<std::string>& object) {
         put("{},0,,{},,,{}\n", ray, csv_cell(tree.phases[phase]), copy_at(origin));
         while (const auto c =
                    tracer.first_crossing(start, direction, from, std::numeric_limits<float>::max(), phase, workspace)) {
-            const double t = glm::dot(glm::dvec3(c->p_in) - glm::dvec3(origin), glm::dvec3(direction)) / length;
+            const double t = glm::dot(glm::dvec3(c->p_from) - glm::dvec3(origin), glm::dvec3(direction)) / length;
             const glm::vec3 n = tracer.normal(*c, direction);
             put("{},{},{},{},{},{},{}{}\n", ray, unsigned_zero(static_cast<float>(t)), csv_cell(tree.phases[c->from]),
                 csv_cell(tree.phases[c->to]), unsigned_zero(n.x), unsigned_zero(n.y), unsigned_zero(n.z),
-                copy_at(c->p_out));
+                copy_at(c->p_to));
             if (is_at_object) {
-                from = c->t_out;
+                from = c->t_to;
             } else {
-                start = c->p_out;
+                start = c->p_to;
                 is_at_object = true;
             }
             phase = c->to;
@@ -84,7 +84,7 @@ void add_trace(CLI::App& app, Run& run) {
         "copy.\n"
         "\n"
         "The whole scene file is checked, but it may lack a camera and lights, and the files of\n"
-        "lights, meshes, textures and voxels are not opened.");
+        "lights, meshes, textures and media are not opened.");
     const auto file = add_scene_file(*command);
     auto object = std::make_shared<std::optional<std::string>>();
     add_object(*command, *object);

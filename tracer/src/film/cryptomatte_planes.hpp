@@ -66,7 +66,7 @@ struct MattePhase {
     static constexpr std::string_view layer = "CryptoPhase";
     static const std::vector<std::string>& names(const SceneNames& s) { return s.phases; }
     static std::optional<std::size_t> shown(const RecordedSurface& r, std::size_t) {
-        return r.phase_entered ? std::optional<std::size_t>(r.phase_entered->index) : std::nullopt;
+        return r.phase_to ? std::optional<std::size_t>(r.phase_to->index) : std::nullopt;
     }
 };
 /// Each object of phases, and each mesh.
@@ -87,7 +87,7 @@ struct MatteMaterial {
         return all;
     }
     static std::optional<std::size_t> shown(const RecordedSurface& r, std::size_t phases) {
-        return r.phase_entered ? r.phase_entered->index : phases + r.object - 1;
+        return r.phase_to ? r.phase_to->index : phases + r.object - 1;
     }
 };
 

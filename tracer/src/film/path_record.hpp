@@ -27,10 +27,10 @@ struct RecordedSurface {
     /// radiance. Its mean over paths is the share of light that is scattered: the colour of a diffuse surface, and 1
     /// for smooth glass.
     glm::vec3 albedo;
-    std::uint32_t object;                ///< the objects of phases first, then the meshes
-    std::uint32_t instance;              ///< number of the copy of an object; 0 for an object that exists once
-    Phase phase_left;                    ///< on the side from which it was met
-    std::optional<Phase> phase_entered;  ///< on the other side; nullopt for a mesh
+    std::uint32_t object;           ///< the objects of phases first, then the meshes
+    std::uint32_t instance;         ///< number of the copy of an object; 0 for an object that exists once
+    Phase phase_from;               ///< on the side from which it was met
+    std::optional<Phase> phase_to;  ///< on the other side; nullopt for a mesh
 };
 
 struct PathRecord {

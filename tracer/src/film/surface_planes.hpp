@@ -80,19 +80,19 @@ struct AlbedoBehind : Albedo {  // the throughput includes the weight
 
 /// IDs, or −1 if there is none.
 struct PhaseLeft {
-    static constexpr std::string_view name = "phase_left";
-    static constexpr std::array<std::string_view, 1> channels{"phase_left.X"};
+    static constexpr std::string_view name = "phase_from";
+    static constexpr std::array<std::string_view, 1> channels{"phase_from.X"};
     static constexpr float otherwise = -1;
     static std::array<float, 1> of_surface(const FilmSample&, const RecordedSurface& r) {
-        return {static_cast<float>(r.phase_left.index)};
+        return {static_cast<float>(r.phase_from.index)};
     }
 };
 struct PhaseEntered {
-    static constexpr std::string_view name = "phase_entered";
-    static constexpr std::array<std::string_view, 1> channels{"phase_entered.X"};
+    static constexpr std::string_view name = "phase_to";
+    static constexpr std::array<std::string_view, 1> channels{"phase_to.X"};
     static constexpr float otherwise = -1;
     static std::array<float, 1> of_surface(const FilmSample&, const RecordedSurface& r) {
-        return {r.phase_entered ? static_cast<float>(r.phase_entered->index) : -1.0f};
+        return {r.phase_to ? static_cast<float>(r.phase_to->index) : -1.0f};
     }
 };
 struct ObjectNumber {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double least_share = 0.1;  // of a solid's surface
 
-// Two significant digits, as a person would write it: the next number above x, or x itself up to rounding.
+// Rounds x up to two significant digits, or down if that changes it by at most 0.1 %.
 float rounded_up(double x) {
     double unit = 1e-30;
     while (100 * unit < x) unit *= 10;

@@ -10,11 +10,14 @@ namespace phasetree::tracer::gltf_import {
 
 namespace {
 
-constexpr std::size_t max_points = 4096;                 // of one surface, for one pair
-constexpr std::size_t most_distances = 4'000'000;        // of all pairs
+constexpr std::size_t max_points = 4096;  // of one surface, for one pair
+// Limits the number of points over all pairs, unless fewest_points per surface are more. Each point costs an
+// evaluation, and about a dozen further ones if it may be at a gap.
+constexpr std::size_t max_points_of_all_pairs = 4'000'000;
 constexpr float widest_gap = 0.02f;                      // of the smaller solid's diagonal
 constexpr float least_depth = 1e-5f, least_gap = 1e-6f;  // of the smaller solid's diagonal; rounding is less
-constexpr float sticking_out = 1e-3f;                    // of a solid's diagonal, within another
+// A solid counts as inside another one if it protrudes by at most this fraction of its own diagonal.
+constexpr float max_protrusion = 1e-3f;
 
 struct SurfacePoint {
     glm::vec3 at, normal;
@@ -77,12 +80,12 @@ class Finder {
             contact.is_first_inside = first.is_inside && !second.is_inside;
             contact.is_second_inside = second.is_inside && !first.is_inside;
         }
-        const Side& wider = first.share >= second.share ? first : second;
-        if (wider.share > 0)
+        const Side& larger = first.share >= second.share ? first : second;
+        if (larger.share > 0)
             contact.gap = Gap{.least = std::min(first.least, second.least),
                               .greatest = std::max(first.greatest, second.greatest),
-                              .of = &wider == &first ? pair.first : pair.second,
-                              .share = wider.share};
+                              .of = &larger == &first ? pair.first : pair.second,
+                              .share = larger.share};
         return contact;
     }
 
@@ -98,7 +101,7 @@ class Finder {
     Side side(std::size_t of, std::size_t in, float widest) const {
         const Solid &own = solids_[of], &other = solids_[in];
         Side side;
-        const float nearest = least_gap * widest / widest_gap, outside = sticking_out * own.bounds.diagonal();
+        const float nearest = least_gap * widest / widest_gap, outside = max_protrusion * own.bounds.diagonal();
         std::size_t at_gap = 0, all = 0;
         for (const SurfacePoint& p : points_on(own, points_)) {
             const float d = other.distance(p.at);
@@ -115,7 +118,8 @@ class Finder {
         return side;
     }
 
-    // Whether the other surface is directly opposite a point at that distance, in an outward direction.
+    // Whether the other surface lies at the distance d along the point's normal (in either sense), on the outer side of
+    // this solid.
     static bool faces(const Solid& own, const Solid& other, const SurfacePoint& p, float d) {
         for (const float sign : {1.0f, -1.0f}) {  // triangles may be inside out
             const glm::vec3 n = sign * p.normal;
@@ -124,8 +128,8 @@ class Finder {
         return false;
     }
 
-    // Whether the segment from a point on the surface lies outside the solid, including its beginning. (From the outer
-    // side of a thin wall, a segment inwards to a liquid begins within the wall.)
+    // Whether a segment that starts on the solid's surface stays outside the solid. Points near its start are tested,
+    // too: from the outer face of a thin wall, a segment to the liquid inside passes through the wall first.
     static bool is_outside(const Solid& own, const glm::vec3& at, const glm::vec3& way) {
         return std::ranges::all_of(std::array{0.05f, 0.25f, 0.5f, 0.75f, 0.95f},
                                    [&](float t) { return own.distance(at + t * way) > 0; });
@@ -149,7 +153,7 @@ std::vector<Contact> contacts_of(const std::vector<Solid>& solids) {
     constexpr std::size_t fewest_points = 64;
     const std::vector<Pair> pairs = near_pairs(solids);
     if (pairs.empty()) return {};
-    const Finder finder(solids, std::clamp(most_distances / (2 * pairs.size()), fewest_points, max_points));
+    const Finder finder(solids, std::clamp(max_points_of_all_pairs / (2 * pairs.size()), fewest_points, max_points));
     std::vector<Contact> contacts;
     for (const Pair& pair : pairs) {
         const Contact contact = finder.find(pair);

@@ -29,7 +29,7 @@ namespace {
 
 using std::filesystem::path;
 
-constexpr std::size_t most_phases = Phase::capacity - 1;
+constexpr std::size_t max_phases = Phase::capacity - 1;
 
 class Importer {
   public:
@@ -87,7 +87,7 @@ class Importer {
         return text;
     }
 
-    // As stated in the file, or else derived from names and the index.
+    // As stated in the file, or else derived from names and the refractive index.
     Matter matter_of_solid(const Solid& solid) {
         const auto stated = matter_named(solid.matter);
         if (stated) return *stated;
@@ -112,10 +112,10 @@ class Importer {
             for (int same = 2; !taken.insert(name).second; ++same) name = fmt::format("{} {}", wanted, same);
             used_materials_.push_back(solid.material);
         }
-        if (used_materials_.size() > most_phases)
+        if (used_materials_.size() > max_phases)
             throw ParameterError("file", fmt::format("{}: it has {} clear materials, but a scene can have only {} "
                                                      "phases; let objects share materials",
-                                                     gltf_.string(), used_materials_.size(), most_phases));
+                                                     gltf_.string(), used_materials_.size(), max_phases));
     }
 
     SceneJson phases() {
@@ -137,10 +137,11 @@ class Importer {
         return phases;
     }
 
+    // Adds a PLY file for each solid to the result. The caller of import_gltf() writes them.
     void write_meshes() {
         const std::string folder = scene_.stem().string() + ".meshes/";
         require_utf8(folder);
-        std::set<std::string> taken;  // in lower case, because some file systems do not distinguish them
+        std::set<std::string> taken;  // in lower case, because some file systems ignore case
         const auto is_new = [&](std::string name) {
             std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
             return taken.insert(name).second;
@@ -198,6 +199,8 @@ class Importer {
     SceneJson mesh() const {
         SceneJson gltf{{"file", named_from_scene()}};
         if (!solids_.empty() || !file_.lights.empty()) {
+            // The scene has the file's clear materials as phases, and its lights in "lights", so its reader need not
+            // warn that the mesh ignores them.
             gltf["imported"] = true;
             if (file_.has_panes) gltf["panes"] = true;
         }
@@ -236,7 +239,7 @@ class Importer {
                 const Decision& d = *decision++;
                 const bool is_one_phase = solids_[d.winner].material == solids_[d.loser].material;
                 text += fmt::format("{} overlap by up to {:.3g} m; {}\n", both, c.depth,
-                                    is_one_phase ? "they have one phase"
+                                    is_one_phase ? "both are the same phase"
                                                  : fmt::format("\"{}\" wins ({})", solids_[d.winner].name, d.reason));
             }
             if (c.gap)

@@ -1,4 +1,4 @@
-// Converts a glTF file to a scene: clear objects become phases of a tree, everything else meshes.
+// Converts a glTF file to a scene: clear objects become phases of a tree; everything else becomes meshes.
 #pragma once
 
 #include <filesystem>
@@ -16,16 +16,20 @@ struct ImportedScene {
     std::string text;                   ///< of the scene file
     std::vector<ImportedMesh> meshes;   ///< files that the scene names
     std::vector<std::string> warnings;  ///< sentences about what is lost
-    std::string report;                 ///< lines: the objects in their order, overlaps and gaps
+    /// Text lines: the objects in order of precedence (precedence.hpp), numbered from 1, then their overlaps and gaps.
+    std::string report;
 };
 
 struct ImportChoices {
-    bool include_panes = false;  ///< whether closed objects of materials without volume become phases, too
-    bool closes_gaps = true;     ///< whether thin gaps between clear objects are closed (closed_gaps.hpp)
+    /// Whether closed objects become phases even if their clear material lacks KHR_materials_volume. By default, they
+    /// become panes of thin_glass.
+    bool include_panes = false;
+    bool closes_gaps = true;  ///< whether thin gaps between clear objects are closed (closed_gaps.hpp)
 };
 
-/// Imports a .gltf or .glb file for a scene file of that name. Reads files, and writes none. Throws ParameterError for
-/// "file", whose message names the file, and OutputNameError if the scene cannot name its files.
+/// Imports a .gltf or .glb file. `scene` is the path at which the scene is to be saved; paths in its text are relative
+/// to it. Reads files, and writes none. Throws ParameterError (for the parameter "file") if the file cannot be
+/// imported, and OutputNameError if a path is not UTF-8, which a scene file cannot contain.
 ImportedScene import_gltf(const std::filesystem::path& gltf, const std::filesystem::path& scene, const ImportChoices&);
 
 }  // namespace phasetree::tracer::gltf_import

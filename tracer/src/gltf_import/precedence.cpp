@@ -17,7 +17,7 @@ struct KnownWord {
     Matter matter;
 };
 
-// Plurals are recognised without their s.
+// A final s or es is ignored, so plurals are recognised.
 constexpr std::array known_words{
     KnownWord{"glass", Matter::solid},      KnownWord{"ice", Matter::solid},      KnownWord{"cube", Matter::solid},
     KnownWord{"straw", Matter::solid},      KnownWord{"crystal", Matter::solid},  KnownWord{"plastic", Matter::solid},
@@ -46,6 +46,7 @@ std::optional<Matter> matter_of_word(std::string_view word) {
     const auto find = [](std::string_view w) { return std::ranges::find(known_words, w, &KnownWord::word); };
     auto found = find(word);
     if (found == known_words.end() && word.ends_with('s')) found = find(word.substr(0, word.size() - 1));
+    if (found == known_words.end() && word.ends_with("es")) found = find(word.substr(0, word.size() - 2));
     return found == known_words.end() ? std::nullopt : std::optional(found->matter);
 }
 
@@ -176,7 +177,7 @@ Precedence precedence_of(const std::vector<Solid>& solids, const std::vector<Mat
                                 "because of overlaps with other objects; set a phasetree_priority to choose",
                                 solids[d.loser].name, solids[d.winner].name, d.reason));
             std::swap(d.winner, d.loser);
-            d.reason = "because of others";
+            d.reason = "to be consistent with other overlaps";
         }
     made.order = order.sorted();
     return made;

@@ -16,7 +16,7 @@ namespace phasetree::tracer::gltf_import {
 
 namespace {
 
-// The number of edges with triangles on one side only.
+// The number of edges that belong to an odd number of triangles.
 std::size_t open_edges(const TriangleMesh& mesh) {
     const JoinedVertices joined = join_vertices(mesh.vertices, mesh.triangles);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
@@ -84,10 +84,10 @@ class Maker {
             are_closed = are_closed && open_edges(part->mesh) == 0;
         }
         if (parts.size() > 1 && !are_closed && open_edges(all) == 0) {
-            const auto larger = [](const gltf::ClearSolid* a, const gltf::ClearSolid* b) {
+            const auto by_area = [](const gltf::ClearSolid* a, const gltf::ClearSolid* b) {
                 return area_of(a->mesh) < area_of(b->mesh);
             };
-            const gltf::ClearSolid& largest = **std::ranges::max_element(parts, larger);
+            const gltf::ClearSolid& largest = **std::ranges::max_element(parts, by_area);
             warn("\"{}\" has {} clear materials on one surface; all of it becomes \"{}\"", largest.name, parts.size(),
                  file_.clear_materials[largest.material].name);
             add(largest, std::move(all));
@@ -98,7 +98,7 @@ class Maker {
     }
 
     void add(const gltf::ClearSolid& read, TriangleMesh mesh) {
-        Solid solid{.name = unlike_others(read.name),
+        Solid solid{.name = unique_name(read.name),
                     .material = read.material,
                     .priority = read.priority,
                     .matter = read.matter};
@@ -112,15 +112,15 @@ class Maker {
             return warn("{}; it is left out", e.what());
         }
         if (const std::size_t open = open_edges(solid.mesh); open > 0)
-            warn("\"{}\" is not closed: {} edges have triangles on one side only; its holes are closed", solid.name,
-                 open);
+            warn("\"{}\" is not closed: {} edges belong to an odd number of triangles; its holes have been filled",
+                 solid.name, open);
         for (const glm::vec3& p : solid.mesh.vertices) solid.bounds = unite(solid.bounds, {p, p});
         solid.volume = volume_of(solid.mesh);
         solid.area = area_of(solid.mesh);
         made_.solids.push_back(std::move(solid));
     }
 
-    std::string unlike_others(const std::string& name) {
+    std::string unique_name(const std::string& name) {
         std::string unique = name;
         for (int same = 2; !names_.insert(unique).second; ++same) unique = fmt::format("{} {}", name, same);
         return unique;

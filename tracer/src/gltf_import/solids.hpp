@@ -1,4 +1,5 @@
-// The clear objects of a glTF file as solids: closed meshes in the space of the scene.
+// The clear objects of a glTF file as solids: closed meshes in the space of the scene. What is inside may be solid,
+// liquid or gas (Matter in precedence.hpp).
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@
 namespace phasetree::tracer::gltf_import {
 
 struct Solid {
-    std::string name{};        ///< of its node; unique among the solids
+    std::string name{};        ///< of its node, or else of its mesh; made unique
     std::size_t material = 0;  ///< in GltfFile::clear_materials
     std::optional<float> priority{};
     std::string matter{};     ///< solid, liquid or gas as stated in the file; empty if not stated
@@ -37,7 +38,7 @@ struct Solids {
 /// are left out, with a warning.
 Solids solids_of(const gltf::GltfFile& file);
 
-/// A position or a direction of glTF, where y is up, in the space of the scene, where z is up.
+/// Converts a position or a direction from glTF's space (y up) to the scene's (z up).
 template <class T>
 glm::vec<3, T> z_up(const glm::vec<3, T>& p) {
     return {p.x, -p.z, p.y};

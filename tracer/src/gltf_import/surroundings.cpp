@@ -27,7 +27,7 @@ double distance_to(const PunctualLight& light, const Bounds& subject) {
     return std::max(glm::length(z_up(light.position) - glm::dvec3(subject.centre())), 0.1 * radius_of(subject));
 }
 
-// An upper bound on the irradiance of the file's lights at the subject.
+// An estimate of the irradiance of the file's lights at the subject's centre, ignoring angles, cones and occlusion.
 double irradiance_at(const gltf::GltfFile& file, const Bounds& subject) {
     double sum = 0;
     for (const PunctualLight& light : file.lights) {
@@ -86,7 +86,7 @@ SceneJson camera_of(const gltf::GltfFile& file, const Bounds& subject) {
     }
     const glm::dvec3 position = z_up(file.camera->position), forward = z_up(file.camera->forward),
                      up = z_up(file.camera->up);
-    // The distance of the plane through the subject, which is then in focus.
+    // The depth of the subject's centre. `look_at` is placed at that depth, so that the subject is in focus.
     const double depth = glm::dot(centre - position, forward);
     SceneJson camera{{"position", rounded(position)},
                      {"look_at", rounded(position + (depth > 0.1 * radius ? depth : radius) * forward)},

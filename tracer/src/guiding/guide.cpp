@@ -17,11 +17,11 @@ namespace phasetree::tracer {
 
 namespace {
 
-// A region with more findings than this is divided.
+// A region with more samples than this is divided.
 constexpr std::size_t findings_a_region = 2048;
-// A region with fewer findings than this has no pdf, because so few are due to chance.
+// A region with fewer samples than this has no pdf, because so few are due to chance.
 constexpr std::size_t fewest_findings = 64;
-// A finding is clamped to this many times the mean of its region, where the mean is taken after clamping. Otherwise the
+// A sample is clamped to this many times the mean of its region, where the mean is taken after clamping. Otherwise the
 // few paths that happen to find very much light would attract all others: without clamping, a room behind a door had
 // 1.2 × the variance.
 constexpr double clamp_over_mean = 4;
@@ -40,29 +40,29 @@ Facing facing_of(const glm::vec3& normal) {
 
 struct Guide::Builder {
     using Numbers = std::span<std::uint32_t>;
-    const std::vector<Finding>& findings;
+    const std::vector<GuideSample>& samples;
     std::vector<Node>& nodes;
-    std::vector<Numbers>& findings_of_trees;
+    std::vector<Numbers>& samples_of_trees;
 
-    // Makes the node of the region with the findings of these indices. Returns its index.
+    // Makes the node of the region with the samples of these indices. Returns its index.
     std::size_t divide(Numbers numbers) {
         const std::size_t node = nodes.size();
         nodes.emplace_back();
-        glm::vec3 low = findings[numbers[0]].point, high = low;
+        glm::vec3 low = samples[numbers[0]].point, high = low;
         for (const std::uint32_t number : numbers) {
-            low = glm::min(low, findings[number].point);
-            high = glm::max(high, findings[number].point);
+            low = glm::min(low, samples[number].point);
+            high = glm::max(high, samples[number].point);
         }
         const int axis = longest_axis(high - low);
-        // Regions are divided in the middle, so they stay compact; those with many findings are divided again.
+        // Regions are divided in the middle, so they stay compact; those with many samples are divided again.
         const float at = low[axis] + 0.5f * (high[axis] - low[axis]);
         if (numbers.size() <= findings_a_region || !(low[axis] < at && at < high[axis])) {
             if (numbers.size() < fewest_findings) return node;
-            nodes[node].tree = findings_of_trees.size();
-            findings_of_trees.push_back(numbers);
+            nodes[node].tree = samples_of_trees.size();
+            samples_of_trees.push_back(numbers);
             return node;
         }
-        const auto is_low = [&](std::uint32_t number) { return findings[number].point[axis] < at; };
+        const auto is_low = [&](std::uint32_t number) { return samples[number].point[axis] < at; };
         const auto middle = std::partition(numbers.begin(), numbers.end(), is_low);
         const std::size_t low_half = divide({numbers.begin(), middle}), high_half = divide({middle, numbers.end()});
         nodes[node] = {axis, at, low_half, high_half, std::nullopt};
@@ -73,11 +73,11 @@ struct Guide::Builder {
 namespace {
 
 // Clamping lowers the mean from which the limit is derived, so this is iterated until it converges.
-float clamp_of(const std::vector<Finding>& findings, std::span<const std::uint32_t> region) {
+float clamp_of(const std::vector<GuideSample>& samples, std::span<const std::uint32_t> region) {
     float clamp = std::numeric_limits<float>::max();
     for (int round = 0; round < 16; ++round) {
         double light = 0;
-        for (const std::uint32_t number : region) light += static_cast<double>(std::min(findings[number].light, clamp));
+        for (const std::uint32_t number : region) light += static_cast<double>(std::min(samples[number].light, clamp));
         const float before = clamp;
         clamp = static_cast<float>(clamp_over_mean * light / static_cast<double>(region.size()));
         if (clamp > 0.9f * before) break;
@@ -87,22 +87,22 @@ float clamp_of(const std::vector<Finding>& findings, std::span<const std::uint32
 
 }  // namespace
 
-Guide::Guide(const std::vector<Finding>& findings) {
+Guide::Guide(const std::vector<GuideSample>& samples) {
     const FlushSubnormals flush;
     std::array<std::vector<std::uint32_t>, facings> numbers;
-    for (std::size_t i = 0; i < findings.size(); ++i)
-        numbers[findings[i].facing].push_back(static_cast<std::uint32_t>(i));
-    std::vector<Builder::Numbers> findings_of_trees;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        numbers[samples[i].facing].push_back(static_cast<std::uint32_t>(i));
+    std::vector<Builder::Numbers> samples_of_trees;
     for (std::size_t facing = 0; facing < facings; ++facing)
-        if (!numbers[facing].empty()) Builder{findings, nodes_[facing], findings_of_trees}.divide(numbers[facing]);
-    std::vector<std::optional<DirectionTree>> trees(findings_of_trees.size());
+        if (!numbers[facing].empty()) Builder{samples, nodes_[facing], samples_of_trees}.divide(numbers[facing]);
+    std::vector<std::optional<DirectionTree>> trees(samples_of_trees.size());
     tbb::parallel_for(std::size_t{0}, trees.size(), [&](std::size_t i) {
         const FlushSubnormals flush_here;
         std::vector<DirectionTree::Light> lights;
-        lights.reserve(findings_of_trees[i].size());
-        const float clamp = clamp_of(findings, findings_of_trees[i]);
-        for (const std::uint32_t number : findings_of_trees[i])
-            lights.push_back({sphere_to_square(findings[number].direction), std::min(findings[number].light, clamp)});
+        lights.reserve(samples_of_trees[i].size());
+        const float clamp = clamp_of(samples, samples_of_trees[i]);
+        for (const std::uint32_t number : samples_of_trees[i])
+            lights.push_back({sphere_to_square(samples[number].direction), std::min(samples[number].light, clamp)});
         trees[i].emplace(lights);
     });
     for (std::optional<DirectionTree>& tree : trees) trees_.push_back(std::move(*tree));

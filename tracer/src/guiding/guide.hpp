@@ -28,7 +28,7 @@ inline constexpr std::size_t facings = 6;
 Facing facing_of(const glm::vec3& normal);
 
 /// Light that a path found from a point of a surface.
-struct Finding {
+struct GuideSample {
     glm::vec3 point;
     Facing facing = 0;
     glm::vec3 direction;  ///< towards the light
@@ -41,8 +41,8 @@ class Guide {
   public:
     /// A guide without any information.
     Guide() = default;
-    /// Learns from findings. The result depends only on them and their order. Uses all threads of the calling arena.
-    explicit Guide(const std::vector<Finding>& findings);
+    /// Learns from samples. The result depends only on them and their order. Uses all threads of the calling arena.
+    explicit Guide(const std::vector<GuideSample>& samples);
 
     /// The pdf of directions for a point of a surface; null where nothing is known. Valid during the lifetime of the
     /// guide.

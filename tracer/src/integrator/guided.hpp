@@ -1,5 +1,5 @@
-// Chooses the direction in which a path leaves a surface: by the BSDF alone, or with equal odds by the BSDF or a guide
-// (guiding/guide.hpp). The pdf of the mixture is the mean of both pdfs. It enters the MIS weights of shadow rays,
+// Chooses the direction in which a path leaves a surface: by the BSDF alone, or with equal probability by the BSDF or a
+// guide (guiding/guide.hpp). The pdf of the mixture is the mean of both pdfs. It enters the MIS weights of shadow rays,
 // photons and sampled directions, so a bad guide adds noise but no bias.
 //
 // Guides ignore smooth coats. On a coated surface, the guide's half of the choices never samples the coat's specular
@@ -16,8 +16,8 @@ namespace phasetree::tracer {
 
 class GuidedBsdf {
   public:
-    /// For light that leaves in the direction `wo`, in the frame. Refers to the BSDF, the frame and the guide. If the
-    /// guide is null, all members behave as those of the BSDF.
+    /// For light that leaves in the direction `wo`, in the frame. Keeps references to the BSDF, the frame and the
+    /// guide, which must outlive it. If the guide is null, all members behave as those of the BSDF.
     GuidedBsdf(const Bsdf& bsdf, const Frame& frame, const glm::vec3& wo, const DirectionTree* guide)
         : bsdf_(bsdf), frame_(frame), wo_(wo), guide_(guide) {}
 
@@ -33,15 +33,15 @@ class GuidedBsdf {
 
     struct Sample : BsdfSample {
         /// The pdf of `wi` divided by the pdf with which the BSDF alone would choose it. It differs from 1 only where a
-        /// guide, or the choice by lights at a smooth interface (interface_choice.hpp), changed the odds. It is never
-        /// less than a half.
+        /// guide, or the choice by lights at a smooth interface (interface_choice.hpp), changed the probability. It is
+        /// never less than a half.
         float pdf_over_unguided = 1;
 
-        /// Accounts for choosing this sample `odds` times as often as the BSDF alone would have.
-        void count_as_chosen(float odds) {
-            weight /= odds;
-            pdf *= odds;
-            pdf_over_unguided *= odds;
+        /// Accounts for choosing this sample `ratio` times as often as the BSDF alone would have.
+        void count_as_chosen(float ratio) {
+            weight /= ratio;
+            pdf *= ratio;
+            pdf_over_unguided *= ratio;
         }
     };
     /// nullopt if the path ends here.

@@ -43,8 +43,8 @@ InterfaceChoice chosen_by_lights(const Scene& scene, const Surface& surface, con
     if (u < q) return {std::min(u / q * f, std::nextafter(f, 0.0f)), q / f};
     const float rest = (u - q) / (1.0f - q);
     // 1 − q is computed without the rounding of q, so that the quotient stays at least a half even where F is nearly 1.
-    const float refracted_odds = 0.5f * ((1.0f - f) + from_refraction / from_both);
-    return {std::min(f + rest * (1.0f - f), one_minus_epsilon), refracted_odds / (1.0f - f)};
+    const float one_minus_q = 0.5f * ((1.0f - f) + from_refraction / from_both);
+    return {std::min(f + rest * (1.0f - f), one_minus_epsilon), one_minus_q / (1.0f - f)};
 }
 
 }  // namespace phasetree::tracer

@@ -5,9 +5,9 @@
 // reflected with the probability
 //     q = (F + F B / (F B + (1 − F) B')) / 2,
 // where F is the Fresnel reflectance, and B and B' are the brightness of the lights in the directions of the reflected
-// and the refracted path, ignoring occlusion. For emissive surfaces and media, B is the luminance of the brightest ball
-// (lights/emissive_part.hpp) in that direction. A reflected path has the weight F/q and a refracted path (1 − F)/(1 −
-// q), each at most 2.
+// and the refracted path, ignoring occlusion. Emissive surfaces and media are enclosed in balls
+// (lights/emissive_part.hpp); for them, B is the luminance of the brightest ball that the direction meets. A reflected
+// path has the weight F/q and a refracted path (1 − F)/(1 − q), each at most 2.
 //
 // The direction of a path in glass is not the direction in which it will see a lamp. The estimate assumes that the path
 // leaves the glass through a plane parallel to the interface, which is exact for a pane and nearly right for the wall
@@ -26,8 +26,8 @@ namespace phasetree::tracer {
 inline constexpr float one_minus_epsilon = 0x1.fffffep-1f;
 
 struct InterfaceChoice {
-    float u_lobe;             ///< argument of Bsdf::sample(), which then takes the chosen branch
-    float odds_over_fresnel;  ///< q/F or (1 − q)/(1 − F); divide the weight of that sample by it
+    float u_lobe;                    ///< argument of Bsdf::sample(), which then takes the chosen branch
+    float probability_over_fresnel;  ///< q/F or (1 − q)/(1 − F); divide the weight of that sample by it
 };
 
 /// `bsdf` is that of `surface`, which is smooth and clear on both sides. `wo` is the direction of the outgoing light,

@@ -13,7 +13,7 @@ namespace {
 // Almost no light enters at smaller cosines (closer to grazing), and the pdf is unbounded there.
 constexpr float least_cosine = 1e-4f;
 
-// Refracts a direction outside into the medium. The normal points outward.
+// Refracts a direction outside the medium into it. The normal points outward.
 std::optional<glm::vec3> bent_inward(const glm::vec3& outside, const glm::vec3& normal, float eta) {
     const float cosine = glm::dot(normal, outside);
     const float squared = 1.0f - (1.0f - cosine * cosine) / (eta * eta);
@@ -21,7 +21,7 @@ std::optional<glm::vec3> bent_inward(const glm::vec3& outside, const glm::vec3& 
     return glm::normalize((outside - normal * cosine) / eta + normal * std::sqrt(squared));
 }
 
-// Refracts a direction inside out of the medium. `widening` is dω'/dω.
+// Refracts a direction in the medium to the outside. `widening` is dω'/dω.
 struct Outside {
     glm::vec3 direction;
     float widening;
@@ -73,12 +73,12 @@ LightProposal LightProposal::at(const Surface& surface, const World& world, cons
     return proposal;
 }
 
-LightProposal LightProposal::at(const MediumPoint& point, const std::optional<glm::vec3>& entered, const World& world,
-                                const Scene& scene, const Wavelengths* wavelengths) {
+LightProposal LightProposal::at(const MediumPoint& point, const std::optional<glm::vec3>& last_boundary_normal,
+                                const World& world, const Scene& scene, const Wavelengths* wavelengths) {
     const float eta = std::get<Clear>(scene.materials[point.phase.index]).ior_for(wavelengths);
-    LightProposal proposal(point.position, entered.value_or(glm::vec3(0.0f)), eta);
+    LightProposal proposal(point.position, last_boundary_normal.value_or(glm::vec3(0.0f)), eta);
     if (eta == 1.0f) return proposal;
-    if (!entered) proposal.planes_ = 0;
+    if (!last_boundary_normal) proposal.planes_ = 0;
     proposal.add_flat_boundaries(
         world, [&](const glm::vec3& outward) { return scene.lights.towards_brightest(point.position, outward); });
     return proposal;
@@ -110,8 +110,8 @@ std::optional<LightSample> LightProposal::sample(const Lights& lights, glm::vec2
     std::optional<LightSample> sample = lights.sample(at_, u, wavelengths);
     if (!sample) return std::nullopt;
     if (sample->is_of_point_light()) {
-        // A direction to a point light that a plane refracts misses the light, so only the straight technique samples
-        // it.
+        // Once a plane has refracted the direction to a point light, the direction misses the light. So only the
+        // directions that go straight to it sample a point light.
         sample->pdf /= static_cast<float>(1 + planes_);
         return by == 0 ? sample : std::nullopt;
     }

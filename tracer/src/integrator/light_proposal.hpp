@@ -5,12 +5,12 @@
 // between), light that comes from ω' outside arrives from
 //     ω = (ω' − n cos θ')/η + n cos θ,   sin θ' = η sin θ,   dω'/dω = η² cos θ / cos θ'.
 // A share of the directions is therefore refracted in this way, with the normal of the point where light from the
-// brightest lamp would enter. That point is estimated with two straight lines: the straight direction to the lamp is
-// refracted as by a plane parallel to the surface, and then followed, without further refraction, to the first point
-// where the index is 1. For lamps that are not small, the tangent plane is a good enough approximation of a curved
-// boundary. Light can enter through several sides, so further shares are refracted by the flat boundaries that lamps
-// shine on (flat_boundaries.hpp). Bad guesses cause no bias because the pdf includes all shares: with n planes,
-//     p(ω) = (p(ω | lights) + Σ p(ω'(ω) | lights) η² cos θ / cos θ') / (1 + n).
+// brightest lamp would enter. To estimate that point, the straight direction to the lamp is refracted once, as if by a
+// plane parallel to the surface. The resulting line is followed, without further refraction, to the first boundary
+// beyond which the index is 1. For lamps that are not small, the tangent plane is a good enough approximation of a
+// curved boundary. Light can enter through several sides, so further shares are refracted by the flat boundaries that
+// lamps shine on (flat_boundaries.hpp). Bad guesses cause no bias because the pdf includes all shares: with k planes,
+//     p(ω) = (p(ω | lights) + Σ p(ω'(ω) | lights) η² cos θ / cos θ') / (1 + k).
 //
 // Manifold walks (Hanika, Droske & Fascione: Manifold Next Event Estimation, EGSR 2015) find the exact path to one
 // point of a lamp, but have no pdf for weighting them against other techniques.
@@ -40,12 +40,13 @@ class LightProposal {
     /// the same hero and use the same pdfs in their weights.
     static LightProposal at(const Surface& surface, const World& world, const Scene& scene, PathCounters& counters,
                             const Wavelengths* wavelengths);
-    /// For a point in a medium. `entered` is the outward normal of the last boundary that the path met in this medium,
-    /// if any. Near that boundary, light enters where the path did; far from it, next to no light enters.
-    static LightProposal at(const MediumPoint& point, const std::optional<glm::vec3>& entered, const World& world,
-                            const Scene& scene, const Wavelengths* wavelengths);
+    /// For a point in a medium. `last_boundary_normal` is the outward normal of the last boundary that the path met in
+    /// this medium, if any. One boundary is enough: a point near it gets most of its light through it, and a point far
+    /// away gets hardly any light.
+    static LightProposal at(const MediumPoint& point, const std::optional<glm::vec3>& last_boundary_normal,
+                            const World& world, const Scene& scene, const Wavelengths* wavelengths);
 
-    /// Samples a direction from p and the light seen in it; `u` is in [0, 1)².
+    /// Samples a direction and returns the light seen in it; `u` is in [0, 1)².
     std::optional<LightSample> sample(const Lights& lights, glm::vec2 u,
                                       const Wavelengths* wavelengths = nullptr) const;
     /// The pdf of sample() per steradian.
@@ -54,7 +55,8 @@ class LightProposal {
     float pdf_from(const Lights& lights, const glm::vec3& place, const glm::vec3& direction) const;
 
   private:
-    /// Adds the flat boundaries through which a light above them reaches the point.
+    /// Adds the flat boundaries through which a light above them reaches the point. `lamp_above(normal)` returns the
+    /// direction to the brightest light above a boundary with this outward normal; nullopt if there is none.
     template <class LampAbove>
     void add_flat_boundaries(const World& world, LampAbove&& lamp_above);
     /// As pdf() above, for a direction whose pdf straight to the lights is known.

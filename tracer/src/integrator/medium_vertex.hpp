@@ -46,7 +46,8 @@ class MediumVertex {
     float phase_function(const glm::vec3& direction) const {
         return point_.phase_function.get().evaluate(glm::dot(arriving_, direction));
     }
-    /// `depth` is that of PhotonMap::near_in_medium.
+    /// `depth` is how far behind the boundary, along the photon's line, the point of the line closest to the vertex is;
+    /// it is negative in front of the boundary.
     std::optional<PhotonScattering> scattering_of(const Photon& photon, float depth, const PathContext& context,
                                                   const PathWavelengths& wavelengths) const;
 
@@ -55,7 +56,9 @@ class MediumVertex {
     glm::vec3 arriving_;  ///< direction of the path's segment that ends here
     LightProposal proposal_;
     std::optional<PhotonPlacement> placement_;  ///< nullopt if the vertex gathers no photons
-    float per_line_density_across_;             ///< 0 if the vertex gathers no photons
+    /// N π r² n², which is multiplied by the line density and F to give the density of photons (photon_density.hpp); 0
+    /// if the vertex gathers no photons.
+    float per_line_density_without_cosine_;
 };
 
 static_assert(PathVertex<MediumVertex>);

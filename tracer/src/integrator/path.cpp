@@ -36,7 +36,7 @@ class PathIntegrator {
         : context_(context),
           camera_ior_(clear_at(context.scene, camera_ray.phase).ior),
           path_{.ray = camera_ray, .wavelengths = sampled_wavelengths(context)},
-          guiding_(help.guide, help.findings, context.scene.settings.spectral),
+          guiding_(help.guide, help.guide_samples, context.scene.settings.spectral),
           recorder_(record, context.scene, camera_ior_),
           radiance_(guiding_, recorder_) {}
 
@@ -104,7 +104,7 @@ class PathIntegrator {
             // Pass an interface of equal indices. It scatters nothing, but counts towards max_depth.
             if (bsdf.passes_through()) {
                 ray = surface->transmitted(ray.direction);
-                path_.entered = surface->normal;
+                path_.last_boundary_normal = surface->normal;
                 continue;
             }
 
@@ -158,17 +158,18 @@ class PathIntegrator {
         const SurfaceVertex vertex(context_, path_, guiding_, surface, bsdf);
         if (vertex.receives_light()) add_light_at(vertex);
         // Sample the BSDF or the guide.
-        const auto [u_lobe, odds] = choice_at(vertex, context_.sampler.next());
+        const auto [u_lobe, probability_over_fresnel] = choice_at(vertex, context_.sampler.next());
         const glm::vec2 u = context_.sampler.next2();
         auto next = vertex.bsdf().sample(u_lobe, u);
-        if (next) next->count_as_chosen(odds);
-        recorder_.scattered(surface, vertex.bsdf(), {u_lobe, u, odds, next}, path_.ray.phase, path_.throughput,
-                            path_.wavelengths);
+        if (next) next->count_as_chosen(probability_over_fresnel);
+        recorder_.scattered(surface, vertex.bsdf(), {u_lobe, u, probability_over_fresnel, next}, path_.ray.phase,
+                            path_.throughput, path_.wavelengths);
         if (!next) return false;
         path_.throughput *= next->weight;
         path_.ray = continued(surface, vertex.frame(), *next);
-        recorder_.chose(odds);
-        if (surface.far_side && surface.entered) path_.entered = next->transmitted ? surface.normal : -surface.normal;
+        recorder_.chose(probability_over_fresnel);
+        if (surface.far_side && surface.entered)
+            path_.last_boundary_normal = next->transmitted ? surface.normal : -surface.normal;
         guiding_.leave(surface, bsdf, *next, path_.ray.direction, path_.throughput);
         continue_chain(vertex, *next);
         return true;
@@ -186,8 +187,8 @@ class PathIntegrator {
         gather_photons(context_, path_, vertex, radiance_);
     }
 
-    // Chooses between reflection and refraction at a smooth interface. All other BSDFs use their own odds, and so do
-    // paths whose weight has grown too large.
+    // Chooses between reflection and refraction at a smooth interface. All other BSDFs use their own probabilities, and
+    // so do paths whose weight has grown too large.
     InterfaceChoice choice_at(const SurfaceVertex& vertex, float u) const {
         const GuidedBsdf& bsdf = vertex.bsdf();
         if (!is_link(bsdf.bsdf(), vertex.surface()) || !guiding_.may_differ()) return {u, 1.0f};
@@ -217,16 +218,16 @@ class PathIntegrator {
     // Russian roulette on the contribution that the path can still bring to the camera. Refraction preserves L/n², and
     // the throughput applies to L, so the share of the camera's light that is found here is throughput ·
     // n²(here)/n²(camera). Returns whether the path continues. Where a guide, or the choice by lights at interfaces,
-    // changed the odds of the path's directions, the share is computed as if the BSDFs had chosen them. The purpose of
-    // such a choice is to produce many paths towards light, each with a low weight; roulette must not end them because
-    // of that weight.
+    // changed the probabilities of the path's directions, the share is computed as if the BSDFs had chosen them. The
+    // purpose of such a choice is to produce many paths towards light, each with a low weight; roulette must not end
+    // them because of that weight.
     bool survives_roulette(int depth) {
         glm::vec3& throughput = path_.throughput;
         const float ior = clear_at(context_.scene, path_.ray.phase).ior / camera_ior_;
         // After dispersion, the hero's throughput represents all three wavelengths.
-        const float alone =
+        const float hero_scale =
             path_.wavelengths.is_dispersed() && wavelengths()->is_spectral ? wavelengths()->hero_to_all.x : 1.0f;
-        const float worth = std::max({throughput.x, throughput.y, throughput.z}) / alone * ior * ior;
+        const float worth = std::max({throughput.x, throughput.y, throughput.z}) / hero_scale * ior * ior;
         if (!(worth > 0)) return false;
         const float survival = roulette_survival(std::max(guiding_.pdf_over_unguided(), 1.0f) * worth, depth);
         if (survival < 1.0f) {

@@ -19,16 +19,17 @@ struct PathChain {
     LightProposal proposal{};  ///< how lights were sampled there
     glm::vec3 direction{0};    ///< the chain's first direction
     PhotonDensity by_photons{};
-    /// The number of interfaces from the point that gathers photons up to and including the rough interface where this
-    /// chain starts; 0 if photons are gathered at that start. Meaningless where no photons count.
+    /// The number of interfaces from the vertex that gathers photons to the start of this chain: 0 if the chain starts
+    /// at that vertex; otherwise including the rough interface at which the chain starts. Meaningless if photons are
+    /// gathered neither there nor at an earlier vertex.
     int interfaces_before = 0;
     int length = 0;           ///< number of smooth clear interfaces and mirrors
     bool has_mirror = false;  ///< a mirror, or a pane that reflects; if so, shadow rays do not follow it
 
     /// The number of interfaces between the point that gathers photons and the lamp.
     int interfaces() const { return interfaces_before + length; }
-    /// Whether photons that pass a rough interface at the chain's end count at an earlier vertex of the path. Otherwise
-    /// they count at the rough interface.
+    /// Whether photons that pass a rough interface at the chain's end are gathered at an earlier vertex of the path.
+    /// Otherwise, they are gathered at the rough interface. Photons contribute only at the vertex that gathers them.
     bool photons_count_earlier() const {
         return pdf && by_photons.per_line_density > 0.0f && is_photon_chain(interfaces() + 1);
     }

@@ -21,9 +21,9 @@ const DirectionTree* PathGuiding::at(const Surface& surface, const Bsdf& bsdf) c
 void PathGuiding::leave(const Surface& surface, const Bsdf& bsdf, const GuidedBsdf::Sample& next,
                         const glm::vec3& direction, const glm::vec3& throughput) {
     pdf_over_unguided_ *= next.pdf_over_unguided;
-    if (findings_ && !next.delta && can_be_guided(surface, bsdf))
-        findings_->leave(surface.near_side.origin, facing_of(surface.geometric_normal), direction, next.wi.z / next.pdf,
-                         brightness(throughput, is_spectral_));
+    if (samples_ && !next.delta && can_be_guided(surface, bsdf))
+        samples_->leave(surface.near_side.origin, facing_of(surface.geometric_normal), direction, next.wi.z / next.pdf,
+                        brightness(throughput, is_spectral_));
 }
 
 }  // namespace phasetree::tracer

@@ -5,7 +5,7 @@
 
 #include "film/path_record.hpp"
 #include "guiding/guide.hpp"
-#include "guiding/path_findings.hpp"
+#include "guiding/path_guide_samples.hpp"
 #include "image/luminance.hpp"
 #include "integrator/guided.hpp"
 #include "world/hit.hpp"
@@ -15,8 +15,8 @@ namespace phasetree::tracer {
 class PathGuiding {
   public:
     /// Both may be null, which disables guiding or reporting.
-    PathGuiding(const Guide* guide, PathFindings* findings, bool is_spectral)
-        : guide_(guide), findings_(findings), is_spectral_(is_spectral) {}
+    PathGuiding(const Guide* guide, PathGuideSamples* samples, bool is_spectral)
+        : guide_(guide), samples_(samples), is_spectral_(is_spectral) {}
 
     /// The guide's distribution of directions at a surface; null if only the BSDF chooses.
     const DirectionTree* at(const Surface& surface, const Bsdf& bsdf) const;
@@ -28,7 +28,7 @@ class PathGuiding {
     /// Reports radiance that the path found. If the path is spectral, it is in the path's wavelengths, like the
     /// throughput passed to leave().
     void add_light(const glm::vec3& radiance) {
-        if (findings_) findings_->add_light(brightness(radiance, is_spectral_));
+        if (samples_) samples_->add_light(brightness(radiance, is_spectral_));
     }
 
     /// The product of GuidedBsdf::Sample::pdf_over_unguided over the path. Multiplied by it, the throughput is what it
@@ -37,12 +37,12 @@ class PathGuiding {
 
   private:
     // Once the product falls below this, a path samples from the BSDFs alone. A wrong guide, or an occluded lamp
-    // (interface_choice.hpp), may double a path's weight at each surface, and once more after it has reached this
-    // limit.
+    // (interface_choice.hpp), may double a path's weight at each surface. The last doubling may start right at this
+    // limit, so the limit is twice 1/weight_limit.
     static constexpr float least_pdf_over_unguided = 2.0f / PathRecord::weight_limit;
 
     const Guide* guide_;
-    PathFindings* findings_;
+    PathGuideSamples* samples_;
     bool is_spectral_;
     float pdf_over_unguided_ = 1;
 };

@@ -1,4 +1,4 @@
-// Adds up the light that a path finds, and reports it to the findings that train a guide and to the record.
+// Adds up the light that a path finds, and reports it to the guide samples and to the record.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,7 +11,7 @@ namespace phasetree::tracer {
 
 class PathRadiance {
   public:
-    /// Refers to both.
+    /// Keeps references to both, which must outlive it.
     PathRadiance(PathGuiding& guiding, PathRecorder& recorder) : guiding_(guiding), recorder_(recorder) {}
 
     /// Adds light that was found in `direction`, weighted with the path's throughput, in wavelengths or, if they are

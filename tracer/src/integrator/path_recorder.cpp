@@ -44,14 +44,14 @@ void PathRecorder::add_departure(const Surface& surface, const GuidedBsdf& bsdf,
     }
     // The albedo is recorded in colours even for spectral paths because it describes what a surface looks like. The
     // BSDF is therefore sampled again, in colours and with the same random numbers. At a smooth interface, it is
-    // sampled for the branch that the path took: with films and dispersion the odds differ in colours, and a
-    // reflection must not get the weight of a refraction.
+    // sampled for the branch that the path took: with films and dispersion the probabilities differ between colours,
+    // and a reflection must not get the weight of a refraction.
     const Bsdf in_colours = surface.bsdf();
     if (next && is_link(in_colours, surface)) u_lobe = next->transmitted ? one_minus_epsilon : 0.0f;
     const auto unguided =
         GuidedBsdf(in_colours, bsdf.frame(), bsdf.wo(), bsdf.guide()).unguided_sample(u_lobe, departure.u);
     add_surface(surface, in_colours, unguided, from, rgb_throughput_);
-    rgb_throughput_ *= unguided ? unguided->weight / departure.odds : glm::vec3(0.0f);
+    rgb_throughput_ *= unguided ? unguided->weight / departure.probability_over_fresnel : glm::vec3(0.0f);
 }
 
 // `next` is the path's next direction in red, green and blue; nullopt if it ends.
@@ -72,8 +72,8 @@ void PathRecorder::add_surface(const Surface& surface, const Bsdf& bsdf, const s
                         .albedo = is_of_chain && !bsdf.pane() ? glm::vec3(1.0f) : weight * (bent * bent),
                         .object = surface.object,
                         .instance = surface.place.copy,
-                        .phase_left = surface.near_side.phase,
-                        .phase_entered = surface.entered};
+                        .phase_from = surface.near_side.phase,
+                        .phase_to = surface.entered};
     if (!record_->first) record_->first = met;
     if (bsdf.is_delta()) return;
     met.albedo = throughput * weight * (from_camera * from_camera);

@@ -1,5 +1,5 @@
-// Fills in a PathRecord (film/path_record.hpp) while a path is traced. Without a record, it costs one comparison per
-// vertex of the path.
+// Fills in a PathRecord (film/path_record.hpp) while a path is traced. Without a record, a call costs at most a
+// comparison or an assignment.
 #pragma once
 
 #include "film/path_record.hpp"
@@ -13,20 +13,22 @@ namespace phasetree::tracer {
 
 class PathRecorder {
   public:
-    /// A null record disables recording. `camera_ior` is the refractive index around the camera. Refers to the scene.
+    /// A null record disables recording. `camera_ior` is the refractive index around the camera. Keeps a reference to
+    /// the scene, which must outlive it.
     PathRecorder(PathRecord* record, const Scene& scene, float camera_ior)
         : record_(record), scene_(scene), camera_ior_(camera_ior) {
         if (record_) begin();
     }
 
-    /// The path has flown through a medium, up to a surface at the end of `segment`. Call this only for paths that
-    /// carry wavelengths. `throughput` is that at the start of the flight.
+    /// The path has sampled a flight along `segment`, which ends at the next surface, or at infinity. The flight may
+    /// have been scattered before that. Call this only for paths that carry wavelengths. `throughput` is that at the
+    /// start of the flight.
     void flew(const Medium& medium, const Way& segment, const Flight& flight, const glm::vec3& throughput,
               Sampler& sampler) {
         if (record_) rgb_throughput_ *= rgb_weight(medium, segment, flight, throughput, sampler);
     }
 
-    /// A path of red, green and blue has been dispersed.
+    /// An RGB path has been dispersed.
     void dispersed(const glm::vec3& throughput) { rgb_throughput_ = throughput; }
 
     /// The path has travelled this distance in the phase.
@@ -38,7 +40,7 @@ class PathRecorder {
     struct Departure {
         float u_lobe;                                   ///< the first argument of GuidedBsdf::sample()
         glm::vec2 u;                                    ///< the second one
-        float odds;                                     ///< InterfaceChoice::odds_over_fresnel
+        float probability_over_fresnel;                 ///< as in InterfaceChoice
         const std::optional<GuidedBsdf::Sample>& next;  ///< the result
     };
     /// The path was scattered at a surface that it met in the phase `from`, with this throughput and wavelengths.
@@ -47,9 +49,9 @@ class PathRecorder {
         if (record_) add_departure(surface, bsdf, departure, from, throughput, wavelengths);
     }
 
-    /// The path took its branch with this many times the probability that Fresnel's equations give.
-    void chose(float odds_over_fresnel) {
-        if (record_ && !record_->behind) record_->weight /= odds_over_fresnel;
+    /// The path chose its branch with `probability_over_fresnel` times the probability of Fresnel's equations.
+    void chose(float probability_over_fresnel) {
+        if (record_ && !record_->behind) record_->weight /= probability_over_fresnel;
     }
 
     /// The path has survived roulette with this probability.

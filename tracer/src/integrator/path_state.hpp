@@ -18,7 +18,7 @@ struct PathState {
     /// The last vertex where lights were sampled, and the interfaces since.
     PathChain chain{};
     /// The outward normal of the last clear boundary that the path met in this medium.
-    std::optional<glm::vec3> entered{};
+    std::optional<glm::vec3> last_boundary_normal{};
 };
 
 }  // namespace phasetree::tracer

@@ -9,7 +9,7 @@ namespace phasetree::tracer {
 
 class PathWavelengths {
   public:
-    /// For a path of red, green and blue in a scene where nothing disperses.
+    /// For an RGB path in a scene where nothing disperses.
     PathWavelengths() = default;
     /// For a path that is spectral or may be dispersed.
     explicit PathWavelengths(const Wavelengths& all) : all_(all) {}

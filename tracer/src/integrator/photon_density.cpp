@@ -15,9 +15,9 @@ float photon_cosine(const Surface& surface, const Frame& frame, const glm::vec3&
     return wi.z > 0.0f ? cosine : 0.0f;
 }
 
-float per_line_density_across(const Photons& photons, const Scene& scene, Phase phase) {
+float per_line_density_without_cosine(const Photons& photons, const Scene& scene, Phase phase) {
     const float ior = clear_at(scene, phase).ior;
-    return photons.map->expected() * ior * ior;
+    return photons.map->expected() * ior * ior;  // expected() is N π r²
 }
 
 float per_line_density_at(const Photons& photons, const Scene& scene, const Surface& surface, const GuidedBsdf& bsdf,
@@ -28,7 +28,8 @@ float per_line_density_at(const Photons& photons, const Scene& scene, const Surf
     if (!photons || bsdf.bsdf().is_delta()) return 0.0f;
     const float cosine = photon_cosine(surface, bsdf.frame(), wi);
     if (!(cosine > least_photon_cosine)) return 0.0f;
-    return per_line_density_across(photons, scene, wi.z < 0.0f ? surface.far_side->phase : surface.near_side.phase) *
+    return per_line_density_without_cosine(photons, scene,
+                                           wi.z < 0.0f ? surface.far_side->phase : surface.near_side.phase) *
            cosine;
 }
 

@@ -17,7 +17,7 @@ void add_light_of_photon(const PathContext& context, const PathState& path, cons
         return proposal.pdf_from(context.scene.lights, photon.position + along * photon.direction, photon.direction);
     });
     const Wavelengths* now = path.wavelengths.now();
-    glm::vec3 fluence = scattering.power / context.photons.map->expected();
+    glm::vec3 fluence = scattering.power / context.photons.map->expected();  // over N π r²
     if (photon.of_one_wavelength) {
         if (!path.wavelengths.is_dispersed()) fluence *= path.wavelengths.all()->hero_to_all;
     } else if (now && !now->is_spectral) {

@@ -13,8 +13,8 @@ void add_light_of_photon(const PathContext& context, const PathState& path, cons
                          const PhotonScattering& scattering, const glm::vec3& position, const LightProposal& proposal,
                          PathRadiance& radiance);
 
-/// Adds the photons that count at a vertex. `path` is that which arrives there. Does nothing without photons, or if
-/// some techniques are disabled.
+/// Adds the photons that are gathered at a vertex. `path` is that which arrives there. Does nothing without photons, or
+/// if some techniques are disabled.
 template <PathVertex Vertex>
 void gather_photons(const PathContext& context, const PathState& path, const Vertex& vertex, PathRadiance& radiance) {
     if (!context.photons || context.scene.settings.techniques != Techniques::all) return;

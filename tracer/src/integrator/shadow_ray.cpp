@@ -12,7 +12,7 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Arrival::line_density of a point light that is seen without refraction.
+// Arrival::FromLight::line_density of a point light that is seen without refraction.
 float point_density(const PathContext& context, const Ray& ray, const LightSample& sampled, const OfPointLight& light) {
     if (!context.photons) return 0.0f;
     return context.photons.emission->direction_density(light.index, -ray.direction) /
@@ -30,8 +30,8 @@ Arrival trace_shadow_ray(const PathContext& context, Ray ray, const LightSample&
         return point ? point_density(context, ray, sampled, *point) : line_density(context.photons, ray);
     };
     PathWavelengths ray_wavelengths = path_wavelengths;
-    // The light was sampled for the path. Since then, an interface that is passed straight may have dispersed a ray of
-    // red, green and blue.
+    // The light's radiance was sampled in the path's representation. If that is RGB, an interface that the ray went
+    // straight through may have dispersed the ray since, and the radiance must be converted to its wavelengths.
     const auto sampled_radiance = [&] {
         return path_wavelengths.now() ? sampled.radiance : for_light(sampled.radiance, ray_wavelengths.now());
     };

@@ -42,7 +42,8 @@ struct Arrival {
 /// the lights are queried for what the ray sees. If the ray is dispersed on its way, the radiance includes
 /// Wavelengths::hero_to_all, so that it stands for the same light as the path's other numbers.
 ///
-/// Smooth thin panes are passed straight on, multiplied by their transmittance; the ray never takes their reflection.
+/// The ray goes straight through smooth thin panes, and their transmittance multiplies its light; it never takes their
+/// reflection.
 ///
 /// A point light is reached only by the straight ray, through panes and boundaries that do not refract. Its light
 /// through refracting interfaces is left to photons, because no direction sampled here leads through an interface to a

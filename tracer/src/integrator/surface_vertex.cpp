@@ -16,8 +16,8 @@ SurfaceVertex::SurfaceVertex(const PathContext& context, const PathState& path, 
         interfaces_before_ = path.chain.interfaces() + 1;
     }
     if (!receives_light()) return;
-    // Photons that continue from the surface are weighted with the same pdf of shadow rays, which must not depend on
-    // refraction.
+    // Photons that continue from this surface to an earlier vertex use the pdf of this proposal in their MIS weights,
+    // too, so it must not depend on refraction.
     proposal_ = surface.far_side || is_passed_by_photons()
                     ? LightProposal(receiver_of_passed_light(surface, surface.near_side))
                     : LightProposal::at(surface, context.world, scene_, context.counters, path.wavelengths.all());

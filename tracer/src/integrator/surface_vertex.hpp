@@ -19,7 +19,8 @@ namespace phasetree::tracer {
 
 class SurfaceVertex {
   public:
-    /// The path has met the surface, which has this BSDF. Refers to the scene, the surface and the BSDF.
+    /// The path has met the surface, which has this BSDF. Keeps references to the scene, the surface and the BSDF,
+    /// which must outlive it.
     SurfaceVertex(const PathContext& context, const PathState& path, const PathGuiding& guiding, const Surface& surface,
                   const Bsdf& bsdf);
     SurfaceVertex(const SurfaceVertex&) = delete;  // bsdf_ refers to frame_
@@ -31,7 +32,8 @@ class SurfaceVertex {
 
     /// Whether a shadow ray or a photon can bring light that is scattered here: not if all lobes are delta.
     bool receives_light() const { return !bsdf_.bsdf().is_delta(); }
-    /// Requires receives_light(). Photons that continue from the surface are weighted with the same pdf of shadow rays.
+    /// Requires receives_light(). Photons that continue from this surface to an earlier vertex use the pdf of this
+    /// proposal in their MIS weights, too.
     const LightProposal& proposal() const { return proposal_; }
     std::optional<Scattering> scattering(const glm::vec3& direction) const;
     int interfaces_before() const { return interfaces_before_; }
@@ -54,9 +56,9 @@ class SurfaceVertex {
     PathChain chain_from(const GuidedBsdf::Sample& next, const glm::vec3& direction) const;
 
   private:
-    /// Whether photons that continue from the surface count at an earlier vertex of the path, and not here.
+    /// Whether photons that continue from the surface are gathered at an earlier vertex of the path, and not here.
     bool is_passed_by_photons() const { return per_line_density_before_.has_value(); }
-    /// PhotonDensity::per_line_density of a direction in the frame.
+    /// PhotonDensity::per_line_density (the factor of the line density) of a direction in the frame.
     float per_line_density(const glm::vec3& wi) const;
     std::optional<PhotonScattering> scattering_of(const Photon& photon) const;
 
@@ -65,7 +67,8 @@ class SurfaceVertex {
     const Surface& surface_;
     Frame frame_;
     GuidedBsdf bsdf_;
-    /// If photons count at an earlier vertex: the density there, over the pdf with which the path left it.
+    /// If photons are gathered at an earlier vertex: PhotonDensity::per_line_density there, divided by the pdf with
+    /// which the path left it.
     std::optional<float> per_line_density_before_;
     int interfaces_before_ = 0;
     LightProposal proposal_;

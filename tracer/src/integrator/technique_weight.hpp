@@ -6,7 +6,8 @@
 
 namespace phasetree::tracer {
 
-/// A technique by which a path itself finds light.
+/// A technique by which a path itself finds light: by shadow rays, or in the directions that it samples from the BSDF,
+/// a guide or the phase function.
 enum class Technique { shadow_rays, directions };
 
 /// The weight of light that one technique found with `pdf`. The other one would have found it with `by_other`, and

@@ -25,7 +25,7 @@ struct Scattering {
 
 /// How a vertex scatters the light of one photon into the path.
 struct PhotonScattering {
-    glm::vec3 power;   ///< the photon's, attenuated up to the vertex
+    glm::vec3 power;   ///< the photon's, attenuated up to the vertex; in a medium, also divided by the coverage F
     glm::vec3 f;       ///< the BSDF or the phase function for the photon's direction
     float pdf;         ///< with which the path itself would continue in that direction
     float by_photons;  ///< the density with which photons find that direction
@@ -34,8 +34,9 @@ struct PhotonScattering {
 /// * proposal(): the distribution of the directions of shadow rays.
 /// * scattering(w): how light from the direction w is scattered; nullopt if it is not.
 /// * interfaces_before(): PathChain::interfaces_before of a chain that starts at the vertex.
-/// * position(): where the photons that count are near.
-/// * for_each_photon(context, path, use): calls use(photon, scattering) for each photon that counts. Requires photons.
+/// * position(): the point around which photons are gathered.
+/// * for_each_photon(context, path, use): calls use(photon, scattering) for each photon that is gathered. Requires
+/// photons.
 template <class V>
 concept PathVertex = requires(const V& vertex, const glm::vec3& w, const PathContext& context, const PathState& path,
                               void (*use)(const Photon&, const PhotonScattering&)) {

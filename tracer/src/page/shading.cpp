@@ -71,16 +71,16 @@ vec3 radiance(vec3 o, vec3 d) {
             continue;
         }
         vec4 there = looks[2 * c.to], there2 = looks[2 * c.to + 1], here = looks[2 * c.from], here2 = looks[2 * c.from + 1];
-        vec3 p = o + c.t_in * d, n = c.normal;  // along the ray
+        vec3 p = o + c.t_from * d, n = c.normal;  // along the ray
         if (dot(n, d) < 0.0) n = -n;
         if (to_lamp) {
             if (there.w > 0.5) return sum;
             pending *= 0.9;
-            o = o + c.t_out * d;
+            o = o + c.t_to * d;
             carried = c.to;
             continue;
         }
-        if (c.from > 0) weight *= exp(-here.xyz * c.t_in);
+        if (c.from > 0) weight *= exp(-here.xyz * c.t_from);
         float cos_i = clamp(dot(n, d), 0.0, 1.0);
         if (there.w > 3.5) return sum + weight * there.xyz;  // glowing
         if (there.w > 0.5) {  // opaque
@@ -108,7 +108,7 @@ vec3 radiance(vec3 o, vec3 d) {
         }
         if (c.from == 0) sum += weight * f * surroundings(reflect(d, n));
         weight *= 1.0 - f;
-        o = o + c.t_out * d;
+        o = o + c.t_to * d;
         d = normalize(eta * d + (cos_t - eta * cos_i) * n);
         carried = c.to;
         if (max(weight.x, max(weight.y, weight.z)) < 0.01) return sum;

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <vector>
 
-#include "guiding/path_findings.hpp"
+#include "guiding/path_guide_samples.hpp"
 #include "integrator/path.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "sampling/shutter_time.hpp"
@@ -46,19 +46,19 @@ class Training {
                 photons_ = training_.caustics->photons(round_, uncounted, training_.cancelled);
                 if (!photons_) return std::nullopt;
             }
-            const auto findings = found_by(paths, guide ? &*guide : nullptr);
-            if (!findings) return std::nullopt;
-            guide.emplace(*findings);
+            const auto samples = found_by(paths, guide ? &*guide : nullptr);
+            if (!samples) return std::nullopt;
+            guide.emplace(*samples);
         }
         training_.learned(1);
         return guide;
     }
 
   private:
-    // The findings of a round of paths; nullopt if cancelled.
-    std::optional<std::vector<Finding>> found_by(std::size_t paths, const Guide* guide) {
+    // The samples of a round of paths; nullopt if cancelled.
+    std::optional<std::vector<GuideSample>> found_by(std::size_t paths, const Guide* guide) {
         const std::size_t tasks = paths / paths_a_task;
-        std::vector<std::vector<Finding>> parts(tasks);
+        std::vector<std::vector<GuideSample>> parts(tasks);
         std::atomic<bool> stopped{false};
         tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
             if (stopped || training_.cancelled()) {
@@ -70,34 +70,34 @@ class Training {
         });
         if (stopped) return std::nullopt;
         std::size_t count = 0;
-        for (const std::vector<Finding>& part : parts) count += part.size();
-        std::vector<Finding> findings;
-        findings.reserve(count);
-        for (std::vector<Finding>& part : parts) {
-            findings.insert(findings.end(), part.begin(), part.end());
+        for (const std::vector<GuideSample>& part : parts) count += part.size();
+        std::vector<GuideSample> samples;
+        samples.reserve(count);
+        for (std::vector<GuideSample>& part : parts) {
+            samples.insert(samples.end(), part.begin(), part.end());
             part = {};
         }
-        return findings;
+        return samples;
     }
 
-    std::vector<Finding> traced(std::size_t task, const Guide* guide) const {
+    std::vector<GuideSample> traced(std::size_t task, const Guide* guide) const {
         const FlushSubnormals flush;
         const std::uint32_t seed = training_.scene.settings.seed;
         const auto row = static_cast<std::uint32_t>(round_);
-        PathFindings of_path;
-        PathHelp help{.guide = guide, .findings = &of_path};
+        PathGuideSamples of_path;
+        PathHelp help{.guide = guide, .guide_samples = &of_path};
         if (photons_) help.photons = {&training_.caustics->emission(), &*photons_};
         PathCounters uncounted;
-        std::vector<Finding> findings;
+        std::vector<GuideSample> samples;
         for (std::size_t i = 0; i < paths_a_task; ++i) {
             const auto number = static_cast<std::uint32_t>(task * paths_a_task + i);
             Sampler sampler(column_of_training, row, number, seed);
             const glm::dvec2 on_film = glm::dvec2(sampler.next2()) * film_;
             const Ray ray = training_.cameras.first_ray(on_film, time_of(row, number), sampler);
             trace_path(training_.world, training_.scene, ray, sampler, uncounted, nullptr, help);
-            of_path.take(findings);
+            of_path.take(samples);
         }
-        return findings;
+        return samples;
     }
     // Photons and the paths that gather them have the same time.
     float time_of(std::uint32_t row, std::uint32_t number) const {

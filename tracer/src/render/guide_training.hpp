@@ -1,11 +1,11 @@
 // Trains the guide of a picture (guiding/guide.hpp) with paths from its camera, before the first pass. Each round has
 // twice as many paths as the previous one, and uses the previous round's guide (Müller, Gross & Novák 2017, section 5).
-// The findings of a round (light that its paths found, with the points and directions) are discarded after the next
+// The samples of a round (light that its paths found, with the points and directions) are discarded after the next
 // round, which has better ones. The guide depends only on the scene and the whole picture, so that an image does not
 // depend on how it was divided.
 //
 // The number of paths is between two and four per pixel of the whole picture, but at least a quarter of a million and
-// at most a million. Each has at most 16 findings of 32 bytes, so the findings of the last round take less than 300 MB.
+// at most a million. Each has at most 16 samples of 32 bytes, so the samples of the last round take less than 300 MB.
 // While they are gathered, some of them exist twice.
 //
 // With caustics, round i uses the photons of pass i. If anything moves, these are from a single time, so the guide

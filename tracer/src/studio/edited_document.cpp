@@ -15,8 +15,8 @@ namespace phasetree::tracer::studio {
 
 namespace {
 
-constexpr std::size_t most_recent = 64;
-constexpr std::size_t most_bytes_of_recent = std::size_t{64} << 20;
+constexpr std::size_t max_recent_texts = 64;
+constexpr std::size_t max_recent_bytes = std::size_t{64} << 20;
 constexpr const char* label_of_outside = "Change made in another program";
 
 // The bytes of a file. Throws SceneError as reading a document does.
@@ -33,9 +33,9 @@ std::string text_of(const std::filesystem::path& file) {
 
 // Keeps the file's permissions.
 void write_text(const std::filesystem::path& file, const std::string& text) {
-    std::error_code is_new;
-    const std::filesystem::perms permissions = std::filesystem::status(file, is_new).permissions();
-    const bool is_there = std::filesystem::exists(file, is_new);
+    std::error_code ignored;
+    const std::filesystem::perms permissions = std::filesystem::status(file, ignored).permissions();
+    const bool is_there = std::filesystem::exists(file, ignored);
     write_file(text, file);
     if (is_there) std::filesystem::permissions(file, permissions);
 }
@@ -105,7 +105,7 @@ void EditedDocument::commit(bool is_known_to_be_valid) {
     });
     std::size_t bytes = 0;
     for (const RecentText& recent : recent_) bytes += recent.text->size();
-    while (recent_.size() > 1 && (recent_.size() > most_recent || bytes > most_bytes_of_recent)) {
+    while (recent_.size() > 1 && (recent_.size() > max_recent_texts || bytes > max_recent_bytes)) {
         bytes -= recent_.front().text->size();
         recent_.pop_front();
     }
@@ -156,11 +156,13 @@ void EditedDocument::save_text() {
     }
     known_ = known_.now();
     if (failure.empty()) saved_ = text;
+    const bool becomes_readable = failure.empty() && state()->unreadable;
     publish([&](DocumentState& state) {
         state.is_saved = failure.empty();
         state.save_error = failure;
         if (failure.empty()) state.unreadable.reset();
     });
+    if (becomes_readable) changed_();
 }
 
 std::uint64_t EditedDocument::finish(bool is_known_to_be_valid) {
@@ -177,7 +179,9 @@ void EditedDocument::check_base(const EditRequest& request) const {
     for (const RecentText& recent : recent_)
         if (recent.from_version <= request.base) base = recent.text;
     if (base && *base == *present->text) return;
-    if (!base) throw ConflictError("the document has changed too often since; read it again");
+    if (!base)
+        throw ConflictError(
+            fmt::format("the document has changed too often since version {}; read it again", request.base));
     try {
         const Document before = options_.parse(*base);
         if (!present->document) throw ConflictError("the document is no longer valid JSON; read it again");
@@ -195,8 +199,8 @@ void EditedDocument::check(const Document& document) const {
         options_.check(document);
     } catch (const PreparationCancelled&) {
         throw SceneError(options_.file.string(),
-                         fmt::format("reading the scene after this change takes more than {} s, so it was not changed; "
-                                     "change the text instead",
+                         fmt::format("checking the scene after this change took more than {} s, so the change was "
+                                     "rejected; make it in the text editor, which does not check first",
                                      std::chrono::duration<double>(options_.longest_check).count()));
     }
 }
@@ -213,7 +217,7 @@ std::string EditedDocument::with_operations(const EditRequest& request) {
         if (work > most_bytes_of_work)
             throw SceneError(options_.file.string(), "the request has too many operations for a text of this size");
         const bool is_whole = std::holds_alternative<ReplaceText>(operation);
-        // Throws what is wrong with the text.
+        // Throws SceneError if the text is invalid.
         if (!document) document = is_whole ? Document::from_text("{}") : options_.parse(text);
         text = applied(*document, operation, vocabulary_);
         if (text.size() > most_bytes_of_text)
@@ -258,7 +262,7 @@ std::uint64_t EditedDocument::edit(const std::string& label,
         history_->add(std::move(text), label);
         commit();
     }
-    // Whoever asks for this wants it in the file.
+    // Save even if options_.saves is false: this function serves buttons that write into the file.
     if (*saved_ != history_->text()) {
         save_text();
         if (const auto after = state(); !after->is_saved) throw OutputError(after->save_error);

@@ -1,7 +1,8 @@
 // A scene file that is being edited: its text, its history and its file.
 //
-// Every change of the text comes from here, whoever asks for it: pages, buttons that write into the file, or another
-// program that saves the file. All functions may be called by any thread.
+// Every change to the text goes through this class, whether it comes from a page, from a button that writes into the
+// file, or from another program that has saved the file. A page is a browser tab that shows the studio, the editor of
+// scenes. All functions may be called by any thread.
 #pragma once
 
 #include <atomic>
@@ -48,10 +49,10 @@ struct DocumentState {
 
 /// A request to change the text.
 struct EditRequest {
-    std::uint64_t base = 0;  ///< the version that the request was made for
+    std::uint64_t base = 0;  ///< DocumentState::version when the request was made
     std::string label;
-    std::optional<std::string> merge;
-    bool is_strict = false;  ///< whether to reject an invalid scene
+    std::optional<std::string> merge;  ///< requests with the same key, such as those of one drag, form one undo step
+    bool is_strict = false;            ///< whether to reject an invalid scene
     std::vector<Operation> operations;
 };
 
@@ -63,11 +64,11 @@ class EditedDocument {
 
     struct Options {
         std::filesystem::path file;
-        bool saves = true;  ///< whether each step is saved at once
-        /// Makes a document of a text, with the program's options for reading it. Throws SceneError.
+        bool saves = true;  ///< whether each step is saved at once (that of edit(label, change) always is)
+        /// Parses a text with the program's options for reading scenes. Throws SceneError.
         std::function<Document(std::string)> parse;
-        /// Throws what is wrong with a scene, and PreparationCancelled if the current PreparationWatch cancels it.
-        /// Called only for strict requests.
+        /// Throws SceneError if the scene is invalid, and PreparationCancelled if the current PreparationWatch cancels
+        /// it. Called only for strict requests.
         std::function<void(const Document&)> check = [](const Document&) {};
         /// A strict request is rejected if its check takes longer. Other requests wait meanwhile.
         std::chrono::milliseconds longest_check{10000};
@@ -76,7 +77,7 @@ class EditedDocument {
     /// Reads the file. Throws SceneError if that is impossible; an invalid text is no error here.
     explicit EditedDocument(Options options);
 
-    /// Called after each change of the text, and when the file becomes readable or unreadable. Set it before the
+    /// Called after each change of the text, and when the file becomes unreadable or readable. Set it before the
     /// document is shared between threads.
     void on_change(std::function<void()> changed) { changed_ = std::move(changed); }
 
@@ -85,10 +86,11 @@ class EditedDocument {
     std::shared_ptr<const DocumentState> state_after(std::uint64_t version, std::chrono::milliseconds timeout) const;
     void stop();
 
-    /// All return the new version. Throw SceneError if an operation is impossible, and ConflictError if the request
-    /// does not fit the current text: see EditRequest::base.
+    /// All return the new version. Throw SceneError if an operation is impossible, and ConflictError if the text has
+    /// changed since EditRequest::base in a way that affects the operations (rebase.hpp).
     std::uint64_t edit(const EditRequest& request);
-    /// Changes the text by a function of the document. Throws SceneError if the file cannot be read.
+    /// Changes the text by a function of the document, and saves it even if Options::saves is false. Throws SceneError
+    /// if the file cannot be read, and OutputError if it cannot be saved.
     std::uint64_t edit(const std::string& label, const std::function<std::string(const Document&)>& change);
     std::uint64_t undo();
     std::uint64_t redo();
@@ -101,7 +103,7 @@ class EditedDocument {
     /// Records what reading the scene found: an error, or none.
     void record_check(std::uint64_t text_version, const std::optional<SceneError>& error);
 
-    /// A document of a text, with the program's options for reading it. Throws SceneError.
+    /// Parses a text with Options::parse. Throws SceneError.
     Document parsed(std::string text) const { return options_.parse(std::move(text)); }
     const Vocabulary& vocabulary() const { return vocabulary_; }
     const std::filesystem::path& file() const { return options_.file; }

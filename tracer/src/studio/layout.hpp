@@ -45,7 +45,7 @@ struct Container {
     Span gap(std::size_t i) const {
         return {i == 0 ? open + 1 : items[i - 1].end, i == items.size() ? close : items[i].begin};
     }
-    /// Whether the items are on lines of their own.
+    /// Whether there is a line break between any two items, or between an item and a bracket.
     bool is_multiline(std::string_view text) const;
 };
 

@@ -19,7 +19,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t longest_text_of_parameter = 2000;
 
-// Formats JSON as one line. Texts that are not UTF-8, such as those of other programs, get replacement characters.
+// Formats JSON as one line. In strings that are not UTF-8, such as those of other programs, the invalid bytes become
+// replacement characters.
 std::string line(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -56,7 +57,7 @@ Operation read_operation(ObjectReader& reader) {
         "an operation must be \"set\", \"insert\", \"remove\", \"move\", \"wrap\", \"unwrap\", \"rename\" or \"text\"");
 }
 
-// Counts lines and columns of many offsets of a text, in increasing order.
+// The line numbers of offsets in a text. Fast if the offsets are queried in increasing order.
 class Lines {
   public:
     explicit Lines(const std::string& text) : text_(text) {}

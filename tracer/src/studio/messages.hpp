@@ -11,8 +11,8 @@ namespace phasetree::tracer::studio {
 /// "to": "0.5"}, …]}. Throws SceneError.
 EditRequest read_edit_request(const std::string& text);
 
-/// The answer to GET /document, as one line. Leaves out the text and its outline if the page has the text already, that
-/// is, if its version is `known`.
+/// The answer to GET /document, as one line. Leaves out the text and its outline if DocumentState::text_version equals
+/// `known`, because the page then has the text already.
 std::string written(const DocumentState& state, const EditedDocument& of, std::uint64_t known = 0);
 
 /// {"error": {"message": …, "line": …, "column": …}}. Line and column are null unless the error is in this file.

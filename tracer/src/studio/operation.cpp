@@ -83,7 +83,7 @@ class Insertion {
     Insertion(const Document& document, Value parent, std::string key)
         : text_(document.text()), container_(container_of(document, parent)), key_(std::move(key)) {}
 
-    // `write` is called once.
+    // `write` may be called more than once, for different places, and must not have side effects.
     template <class Write>
     std::string before(std::size_t i, Write&& write) const {
         const auto item = [&](Place place) {
@@ -99,9 +99,10 @@ class Insertion {
         const std::string line = place.line_ending + place.indentation;
         if (i == n) return at_end(line + item(place));
         const std::size_t next = container_.items[i].begin;
-        if (!begins_line(text_, next)) return replaced(text_, {{{next, next}, first_of_line(next, item, line)}});
-        // After the comma of the item before and the comments on its line, so that comments above the next item stay
-        // there.
+        if (!begins_line(text_, next))
+            return replaced(text_, {{{next, next}, before_item_within_line(next, item, line)}});
+        // Insert after the comma that follows the previous item, and after any comments on that line, so that comments
+        // above the next item stay above it.
         std::size_t at = container_.open + 1;
         if (i > 0) at = comma_in(container_.gap(i)) + 1;
         const std::size_t comments = end_of_line_comments(text_, at);
@@ -115,8 +116,8 @@ class Insertion {
 
   private:
     template <class Item>
-    std::string first_of_line(std::size_t at, const Item& item, const std::string& line) const {
-        return item(place_at(text_, at)) + "," + line;
+    std::string before_item_within_line(std::size_t at, const Item& item, const std::string& new_line) const {
+        return item(place_at(text_, at)) + "," + new_line;
     }
 
     // The indentation of the items that begin a line.
@@ -315,8 +316,9 @@ std::string apply(const Document& document, const RenameKey& o, const Vocabulary
     if (o.references) {
         const std::optional<ReferenceKind> named = declared_at(o.pointer);
         if (!named)
-            throw document.error(value.key_offset(),
-                                 "only phases and shapes are referred to by name; rename the key alone");
+            throw document.error(
+                value.key_offset(),
+                "references can be renamed only for phases and shapes; rename this key without \"references\"");
         for (const std::size_t offset : references_to(document, *named, target.token, vocabulary))
             replacements.push_back({span_of_value(text, offset), json_string(o.to)});
     }

@@ -49,11 +49,11 @@ struct ReplaceText {
 using Operation =
     std::variant<SetValue, InsertValue, RemoveValue, MoveValue, WrapValue, UnwrapValue, RenameKey, ReplaceText>;
 
-/// The name of an operation in requests: "set".
+/// The name of an operation in requests, such as "set".
 std::string_view name_of(const Operation& operation);
 
-/// The text of a document after an operation. Throws SceneError for an operation that is impossible, at the place in
-/// the document or in the operation's own JSON text.
+/// The text of a document after an operation. Throws SceneError if the operation is impossible. The error's position is
+/// in the document, or in the operation's own JSON text.
 std::string applied(const Document& document, const Operation& operation, const Vocabulary& vocabulary);
 
 }  // namespace phasetree::tracer::studio

@@ -103,7 +103,7 @@ class Outliner {
         return of_choice(type, pointer, value);
     }
 
-    // The name of an object, and the materials that it replaces.
+    // The name of an entry of "objects", and the materials of phases that it overrides.
     void object_with_phases(OutlineEntry& one, Value object) {
         if (const auto name = object.find("name"); name && name->is_string()) one.label = name->string();
         const auto phases = object.find("phases");
@@ -204,7 +204,7 @@ class Outliner {
                                      Keys::are_in(member), parent.type == "scene", of});
     }
 
-    // A phase: its material, and beside it its density.
+    // The entry of a phase: its material, and the parameters that are written next to it, such as the mass density.
     std::optional<OutlineEntry> phase_entry_of(Value phase, const std::string& pointer) {
         if (count_ >= most_) result_.has_more = true;
         if (result_.has_more) return std::nullopt;

@@ -1,4 +1,5 @@
-// The parts of a scene file as a tree: what a page lists. It needs a valid JSON text, but not a valid scene.
+// The parts of a scene file as a tree, which the studio's page lists. It needs a valid JSON text, but not a valid
+// scene.
 #pragma once
 
 #include <limits>
@@ -12,21 +13,23 @@
 namespace phasetree::tracer::studio {
 
 struct OutlineParameter {
-    std::string name;     ///< as in the reference, even if the file has the other spelling
+    std::string name;     ///< as in the reference, even if the file has the other spelling (colour, color)
     std::string pointer;  ///< of the value
     std::optional<Value> value;
     bool is_keyed = false;              ///< whether it changes with time
     bool is_known = true;               ///< whether the kind has such a parameter
-    const KindParameter* of = nullptr;  ///< null if it is not known
+    const KindParameter* of = nullptr;  ///< its description; null if unknown, or a parameter of the scene or a phase
 };
 
 struct OutlineEntry {
     std::string pointer;  ///< of the whole value, such as {"sphere": {…}}
     std::optional<Value> value;
-    /// The kind's key; "reference" for the name of a shape, and the key that the file has for an unknown kind.
+    /// The kind's key; "reference" for the name of a shape, "list" for a list of transforms, "group" for a group, and
+    /// the file's own key for an unknown kind.
     std::string kind;
-    std::string type;                    ///< "field", "light", …
-    const CatalogueKind* of = nullptr;   ///< null for references and unknown kinds
+    std::string type;  ///< "field", "light", …
+    /// Its description; null for references, groups, lists of transforms and unknown kinds.
+    const CatalogueKind* of = nullptr;
     std::optional<std::string> label{};  ///< the name that a person gave
     std::optional<std::string> slot{};   ///< the parameter of the parent that it is in
     std::vector<std::string> phases{};   ///< named in its parameters, without those of its children

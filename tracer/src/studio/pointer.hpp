@@ -16,7 +16,7 @@ std::string escaped(std::string_view key);
 /// A pointer's keys and indices, unescaped. The empty pointer refers to the whole document.
 using PointerTokens = std::vector<std::string>;
 
-/// Throws std::invalid_argument with a message for people unless the text is a pointer.
+/// Throws std::invalid_argument, with a message for the user, if the text is not a valid pointer.
 PointerTokens pointer_tokens(std::string_view pointer);
 
 /// The pointer with these tokens.
@@ -31,8 +31,8 @@ std::string count_of_items(std::size_t count);
 /// The child of a value; nullopt if there is none.
 std::optional<Value> child_of(Value value, std::string_view token);
 
-/// The value that a pointer refers to. Throws SceneError at the last value on the way if there is none, and
-/// std::invalid_argument if the text is not a pointer.
+/// The value that a pointer refers to. If there is none, throws a SceneError whose position is that of the deepest
+/// value that exists on the path. Throws std::invalid_argument if the text is not a pointer.
 Value value_at(const Document&, std::string_view pointer);
 
 }  // namespace phasetree::tracer::studio

@@ -34,8 +34,8 @@ void check_rebase(const Document& base, const Document& present, std::span<const
         std::visit(
             [&]<class O>(const O& o) {
                 if constexpr (requires { o.pointer; }) {
-                    constexpr bool replaces_all = std::is_same_v<O, SetValue> || std::is_same_v<O, InsertValue>;
-                    check_pointer(base, present, o.pointer, !replaces_all);
+                    constexpr bool ignores_old_value = std::is_same_v<O, SetValue> || std::is_same_v<O, InsertValue>;
+                    check_pointer(base, present, o.pointer, !ignores_old_value);
                     if constexpr (std::is_same_v<O, MoveValue>) check_pointer(base, present, o.to, false);
                 }
             },

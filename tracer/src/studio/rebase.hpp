@@ -8,8 +8,8 @@
 namespace phasetree::tracer::studio {
 
 /// Throws ConflictError if the pointers of an operation may refer to other values than they did: if a list on the way
-/// has another length, or if a value that is to be removed, moved, wrapped or renamed has changed. A number that
-/// has changed may be set: the last change wins.
+/// has another length, or if a value that is to be removed, moved, wrapped, unwrapped or renamed has changed. Replacing
+/// the whole text always conflicts. A value that has changed may still be set: the last change wins.
 void check_rebase(const Document& base, const Document& present, std::span<const Operation> operations);
 
 }  // namespace phasetree::tracer::studio

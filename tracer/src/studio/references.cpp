@@ -24,7 +24,7 @@ void add_references(const OutlineEntry& entry, ReferenceKind what, std::string_v
         found.push_back(entry.value->offset());
     if (what == ReferenceKind::phase) {
         for (const OutlineParameter& p : entry.parameters) add_phases(p, name, found);
-        // An object replaces materials of phases by name.
+        // An entry of "objects" may override the materials of phases; the keys of its "phases" are phase names.
         if (entry.type == "placed_object")
             if (const auto phases = entry.value->find("phases"))
                 if (const auto phase = phases->find(name)) found.push_back(phase->key_offset());

@@ -206,13 +206,13 @@ std::string slot_text(const SlotType& slot) {
     return fmt::format("[{}, {}]", filled(ball, phase_placeholder), filled(other, other_phase_placeholder));
 }
 
-// A number within the limits that is close to the preferred one.
+// The preferred number if it is within the limits, otherwise some number that is.
 double within(const KindParameter& p, double preferred) {
-    const double low = p.low.value_or(-1e9), high = p.high.value_or(1e9);
-    if (preferred > low && preferred < high) return preferred;
-    if (preferred == low && !p.low_is_open) return low;
-    if (preferred == high && !p.high_is_open) return high;
-    return preferred <= low ? (high < 1e8 ? 0.5 * (low + high) : low + 1) : 0.5 * (low + high);
+    const bool is_high_enough = !p.low || preferred > *p.low || (preferred == *p.low && !p.low_is_open),
+               is_low_enough = !p.high || preferred < *p.high || (preferred == *p.high && !p.high_is_open);
+    if (is_high_enough && is_low_enough) return preferred;
+    if (p.low && p.high) return 0.5 * (*p.low + *p.high);
+    return p.low ? *p.low + 1 : *p.high - 1;
 }
 
 // `is_first_phase`: no earlier parameter names a phase.

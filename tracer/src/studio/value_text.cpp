@@ -89,14 +89,13 @@ std::size_t indent_of(std::string_view line) {
     return std::min(line.find_first_not_of(" \t"), line.size());
 }
 
-// Where the only null of a document is.
-Value only_null(const Document& document, Value value, std::optional<Value>& found) {
+// Finds the only null in a value. Throws SceneError if there is more than one.
+void find_only_null(const Document& document, Value value, std::optional<Value>& found) {
     if (value.is_null()) {
         if (found) throw document.error(value, "only one null may stand for the wrapped value, but there are more");
         found = value;
     }
-    for (const Value child : value) (void)only_null(document, child, found);
-    return value;
+    for (const Value child : value) find_only_null(document, child, found);
 }
 
 }  // namespace
@@ -143,7 +142,7 @@ std::string moved_text(std::string_view piece, const Place& from, const Place& t
 
 std::string wrapped_text(const Document& around, std::string_view piece, const Place& from, const Place& to) {
     std::optional<Value> null;
-    (void)only_null(around, around.root(), null);
+    find_only_null(around, around.root(), null);
     if (!null) throw around.error(around.root(), "one null must stand for the wrapped value, but there is none");
     const Span span = span_of(around, around.root());
     const std::string_view text = span.of(around.text());

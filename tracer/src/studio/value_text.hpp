@@ -29,8 +29,8 @@ std::string value_text(const Document& value, const Place& place);
 /// A piece of a text, moved from one place to another: the indentation of its lines changes.
 std::string moved_text(std::string_view piece, const Place& from, const Place& to);
 
-/// A JSON text in which a single null stands for something else; `piece` replaces it. `from` is where the piece
-/// stood. Throws SceneError unless there is exactly one null.
+/// The text of `around` at the place `to`, with its only null replaced by `piece`, which stood at the place `from`.
+/// Throws SceneError unless there is exactly one null.
 std::string wrapped_text(const Document& around, std::string_view piece, const Place& from, const Place& to);
 
 }  // namespace phasetree::tracer::studio

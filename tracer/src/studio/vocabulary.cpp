@@ -25,7 +25,7 @@ std::string reference_in(const Json& schema) {
     return target.starts_with(definitions) ? target.substr(definitions.size()) : "";
 }
 
-// The alternatives of a schema, without those nested in others.
+// Adds the alternatives of a schema; nested anyOf are flattened.
 void add_alternatives(const Json& schema, std::vector<Json>& all) {
     if (!schema.contains("anyOf")) {
         all.push_back(schema);
@@ -34,7 +34,7 @@ void add_alternatives(const Json& schema, std::vector<Json>& all) {
     for (const Json& one : schema["anyOf"]) add_alternatives(one, all);
 }
 
-// The type whose kinds a definition of the schema lists. It usually has the definition's name.
+// The type whose kinds are listed in this definition of the schema. Usually both have the same name.
 std::string type_of_reference(const std::string& reference) {
     if (reference == "expectation") return "statement";
     return reference == "phase" ? "material" : reference;
@@ -64,7 +64,7 @@ std::string control_of_vector(const KindParameter& p) {
     return p.unit == "m" && !p.low_is_open && (!p.low || *p.low != 0) ? "point" : "vector";
 }
 
-// The control for one way of writing a value; empty for others, such as nested lists.
+// The control that edits values written as this schema says; empty if there is none, as for nested lists.
 std::string control_of(const Json& schema, KindParameter& p) {
     if (schema.contains("enum")) {
         for (const Json& one : schema["enum"]) p.choices.push_back(one);
@@ -97,23 +97,23 @@ std::string reference_at_stops(const Json& schema) {
     return reference_in(stop["items"][1]);
 }
 
-bool is_of_phases(const ParameterPage& page, const std::string& chapter) {
-    if (page.type == "phase" || page.type == "phase or list of phases" || page.type == "list of phases") return true;
-    // Statements name phases by texts.
-    return chapter == "statements" && page.type.starts_with("text");
+bool is_of_phases(const ParameterPage& entry, const std::string& chapter) {
+    if (entry.type == "phase" || entry.type == "phase or list of phases" || entry.type == "list of phases") return true;
+    // In statements, parameters that name phases have the type "text", so the type does not show that they name phases.
+    return chapter == "statements" && entry.type.starts_with("text");
 }
 
-KindParameter parameter_of(const ParameterPage& page, const std::string& chapter) {
+KindParameter parameter_of(const ParameterPage& entry, const std::string& chapter) {
     KindParameter p;
-    p.name = page.name;
-    p.unit = page.unit;
-    p.help = page.description;
-    p.type = page.type;
-    p.is_required = !page.optional;
-    if (page.optional && Json::accept(page.default_value)) p.default_value = page.default_value;
-    const Json schema = Json::parse(page.schema);
-    if (is_of_phases(page, chapter)) {
-        p.control = page.type == "phase" || page.type == "text" ? "phase" : "phases";
+    p.name = entry.name;
+    p.unit = entry.unit;
+    p.help = entry.description;
+    p.type = entry.type;
+    p.is_required = !entry.optional;
+    if (entry.optional && Json::accept(entry.default_value)) p.default_value = entry.default_value;
+    const Json schema = Json::parse(entry.schema);
+    if (is_of_phases(entry, chapter)) {
+        p.control = entry.type == "phase" || entry.type == "text" ? "phase" : "phases";
         return p;
     }
     std::vector<Json> alternatives;
@@ -126,21 +126,21 @@ KindParameter parameter_of(const ParameterPage& page, const std::string& chapter
         } else if (reference == "unit" || reference == "colour") {
             control = reference == "unit" ? "text" : "color";
         } else if (!reference.empty()) {
-            if (reference == "texture") control = "color";  // a colour may be written as a texture
+            if (reference == "texture") control = "color";  // a plain colour may be written for a texture
             p.slot = SlotType{type_of_reference(reference), false};
         } else if (one.value("type", "") == "array" && !reference_in(one["items"]).empty()) {
             p.slot = SlotType{type_of_reference(reference_in(one["items"])), true};
         } else if (const std::string at_stops = reference_at_stops(one); !at_stops.empty()) {
             p.slot = SlotType{at_stops, true};
         } else {
-            // The first way of writing is the one to edit: a colour may also be three numbers.
+            // If a value can be written in several ways, the control is that of the first one.
             const std::string found = control_of(one, p);
             if (control.empty()) control = found.empty() ? "json" : found;
         }
     }
-    if (page.type.find("[nm, number]") != std::string::npos)
+    if (entry.type.find("[nm, number]") != std::string::npos)
         control = "spectrum";
-    else if (page.type.starts_with("list of [number, "))
+    else if (entry.type.starts_with("list of [number, "))
         control = "curve";
     p.control = control.empty() && p.slot ? "slot" : control.empty() ? "json" : control;
     return p;
@@ -152,7 +152,8 @@ struct ChapterType {
     bool is_written_with_name;
 };
 
-// A chapter missing here makes the constructor throw, and so fails every test of the studio.
+// A chapter missing here makes the constructor throw, and so fails every test of the studio. (type_of_chapter() handles
+// the statements.)
 constexpr std::array<ChapterType, 17> chapter_types{{{"scene-file", "scene", false},
                                                      {"placed-objects", "", false},
                                                      {"transforms", "transform", true},
@@ -178,31 +179,32 @@ ChapterType type_of_chapter(const std::string& stem) {
     throw std::logic_error("studio/vocabulary.cpp does not know the chapter " + stem);
 }
 
-CatalogueKind kind_of(const KindPage& page, const std::string& chapter) {
+CatalogueKind kind_of(const KindPage& entry, const std::string& chapter) {
     const ChapterType type = type_of_chapter(chapter);
     CatalogueKind kind;
-    kind.name = page.name;
+    kind.name = entry.name;
     kind.chapter = chapter;
     kind.type = type.type;
-    if (chapter == "placed-objects") kind.type = page.name == "objects" ? "placed_object" : "instance";
-    kind.summary = page.summary;
-    kind.equation = page.equation;
-    kind.section = page.section;
-    kind.picture = page.example.starts_with("../") ? page.example.substr(3)
-                   : page.example.empty()          ? ""
-                                                   : "reference/" + page.example;
+    if (chapter == "placed-objects") kind.type = entry.name == "objects" ? "placed_object" : "instance";
+    kind.summary = entry.summary;
+    kind.equation = entry.equation;
+    kind.section = entry.section;
+    kind.picture = entry.example.starts_with("../") ? entry.example.substr(3)
+                   : entry.example.empty()          ? ""
+                                                    : "reference/" + entry.example;
     kind.is_written_with_name = type.is_written_with_name;
-    for (const ParameterPage& p : page.parameters) kind.parameters.push_back(parameter_of(p, chapter));
+    for (const ParameterPage& p : entry.parameters) kind.parameters.push_back(parameter_of(p, chapter));
     const auto is_required = [](const KindParameter& p) { return p.is_required; };
     const bool is_one = std::count_if(kind.parameters.begin(), kind.parameters.end(), is_required) == 1;
     const bool is_node = kind.type == "field" || kind.type == "object";
-    kind.list_alone = is_node && is_one && page.list_alone;
+    kind.has_short_form = is_node && is_one && entry.list_alone;
     const auto names = materials_for_meshes_only();
-    kind.for_meshes_only = kind.type == "material" && std::find(names.begin(), names.end(), page.name) != names.end();
+    kind.for_meshes_only = kind.type == "material" && std::find(names.begin(), names.end(), entry.name) != names.end();
     return kind;
 }
 
-// The reference describes warps of objects. Makes the kind for fields, whose child is a field.
+// The reference lists each warp once, as a node of objects. Returns the same warp as a node of fields, with a field as
+// its child.
 CatalogueKind of_fields(CatalogueKind kind) {
     kind.type = "field";
     for (KindParameter& p : kind.parameters)
@@ -219,7 +221,7 @@ const KindParameter* CatalogueKind::parameter(std::string_view key) const {
 }
 
 const KindParameter* CatalogueKind::lone_parameter() const {
-    if (!list_alone) return nullptr;
+    if (!has_short_form) return nullptr;
     for (const KindParameter& p : parameters)
         if (p.is_required) return &p;
     return nullptr;
@@ -228,14 +230,15 @@ const KindParameter* CatalogueKind::lone_parameter() const {
 Vocabulary::Vocabulary() {
     for (const Chapter& chapter : scene_chapters()) {
         const std::string stem = file_stem(chapter);
-        for (const KindPage& page : chapter.pages) {
-            CatalogueKind kind = kind_of(page, stem);
+        for (const KindPage& entry : chapter.pages) {
+            CatalogueKind kind = kind_of(entry, stem);
             if (stem == "warps") kinds_.push_back(of_fields(kind));
             kinds_.push_back(std::move(kind));
         }
     }
     for (std::size_t i = 0; i < kinds_.size(); ++i) by_type_[kinds_[i].type].emplace(kinds_[i].name, i);
-    // Meshes have the materials that are not clear. They are kinds of "material".
+    // A mesh takes an "opaque_material", whose kinds are looked up among those of "material". These include the clear
+    // ones, which the reader of scenes rejects.
     by_type_["opaque_material"] = by_type_["material"];
 }
 

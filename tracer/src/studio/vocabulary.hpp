@@ -10,18 +10,19 @@
 
 namespace phasetree::tracer::studio {
 
-/// A place for values of a type, such as the fields of a union.
+/// What a slot accepts. A slot is a parameter that holds other nodes, such as the operands (fields) of the node
+/// `union`.
 struct SlotType {
     std::string type;      ///< "field", "object", "light", …
     bool is_list = false;  ///< whether it takes a list of them
 };
 
-/// A parameter of a kind.
+/// A parameter of a kind of node, material, light, …, such as `radius` of `sphere`.
 struct KindParameter {
     std::string name;
-    /// How a page edits it: "length", "angle", "number", "integer", "vector", "direction", "point", "color",
-    /// "spectrum", "phase", "phases", "boolean", "choice", "file", "curve", "text" or "json"; "slot" for parameters
-    /// that are made of other kinds.
+    /// How the studio's page (a browser tab) edits it: "length", "angle", "number", "integer", "vector", "direction",
+    /// "point", "color", "spectrum", "phase", "phases", "boolean", "choice", "file", "curve", "text" or "json"; "slot"
+    /// for parameters that are made of other kinds.
     std::string control;
     std::string unit, help;
     std::string type;           ///< in words, as in the reference
@@ -35,23 +36,25 @@ struct KindParameter {
     std::optional<SlotType> slot;
 };
 
-/// One of the kinds of a type.
+/// A kind: one member of a type, such as `sphere` of the type "field".
 struct CatalogueKind {
     std::string name;     ///< its key in scene files
     std::string chapter;  ///< of the reference, such as "operators-on-fields"
     std::string type;     ///< "field", "object", …
-    std::string summary, equation, section;
+    std::string summary, equation;
+    std::string section;  ///< of the paper; may be empty
     std::string picture;  ///< its path relative to scenes, without extension; may be empty
     /// Whether values are written {"name": {parameters}}. Otherwise they are written {parameters}.
     bool is_written_with_name = true;
-    /// Whether the only required parameter, a list or a text, may be written instead of the parameters.
-    bool list_alone = false;
+    /// Whether the value of the only required parameter, a list or a string, may replace the whole parameter object:
+    /// {"union": […]} for {"union": {"of": […]}}.
+    bool has_short_form = false;
     bool for_meshes_only = false;  ///< whether it is a material that phases cannot have
     std::vector<KindParameter> parameters;
 
-    /// The parameter with this key, in either spelling; null if there is none.
+    /// The parameter with this key, in British or American spelling (colour, color); null if there is none.
     const KindParameter* parameter(std::string_view key) const;
-    /// The parameter that may be written instead of the parameters; null if there is none.
+    /// The parameter whose bare value may replace the parameter object; null if the kind has no such short form.
     const KindParameter* lone_parameter() const;
 };
 
@@ -62,7 +65,8 @@ class Vocabulary {
     const std::vector<CatalogueKind>& kinds() const { return kinds_; }
     /// The kind of a type with this key; null if there is none.
     const CatalogueKind* find(std::string_view type, std::string_view name) const;
-    /// The kind of a type that has only one and is not written with its name; null if there is none.
+    /// The only kind of a type, such as "render", if the type has just one and its values are written without the
+    /// kind's name; otherwise null.
     const CatalogueKind* only(std::string_view type) const;
 
   private:

@@ -23,9 +23,9 @@ void follow(const Prepared& prepared, Probed& result) {
             result.has_more = true;
             return;
         }
-        const float distance = glm::dot(crossing->p_in - result.origin, result.direction);
+        const float distance = glm::dot(crossing->p_from - result.origin, result.direction);
         result.crossings.push_back({distance, names[crossing->from], names[crossing->to]});
-        from = crossing->p_out;
+        from = crossing->p_to;
         phase = crossing->to;
     }
 }

@@ -75,7 +75,7 @@ TracedGeometry::NextOfSeveral TracedGeometry::next_of_several(const Ray& ray, fl
     if (hit.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) return hit;
     const CrossingInScene found = crossing_in_scene(q, hit);
     const auto mesh =
-        mesh_flush_with_interface(ray, found.crossing.to, static_cast<float>(found.distance), found.p_in, found.p_out);
+        mesh_flush_with_interface(ray, found.crossing.to, static_cast<float>(found.distance), found.p_from, found.p_to);
     if (mesh) return *mesh;
     return found;
 }
@@ -87,16 +87,16 @@ TracedGeometry::CrossingInScene TracedGeometry::crossing_in_scene(const PlacedQu
     const Transform to_scene = to_object.inverse();
     const glm::vec3 direction(glm::normalize(to_object.matrix * query.direction));
     const CrossingNormal normal = cells_[query.hit.object]->normal(hit.hit.primID, c, direction);
-    const glm::vec3 p_in(to_scene(c.p_in));
+    const glm::vec3 p_from(to_scene(c.p_from));
     return {.crossing = c,
             .copy = query.hit,
             .hint = {embree::ObjectInstance::of(hit.hit), hit.hit.primID, c.from, normal.gradient},
             .distance = static_cast<double>(hit.ray.tfar),
-            .p_in = p_in,
-            .p_out = glm::vec3(to_scene(c.p_out)),
+            .p_from = p_from,
+            .p_to = glm::vec3(to_scene(c.p_to)),
             .normal = glm::vec3(glm::normalize(-glm::dvec3(normal.unit) * to_object.matrix)),
             .normal_in_object = -normal.unit,
-            .tolerance = placed_->tolerance(query.hit.object, to_scene, p_in)};
+            .tolerance = placed_->tolerance(query.hit.object, to_scene, p_from)};
 }
 
 // Determines what lies behind a crossing, and the second crossing that belongs to it, if any: the start of another
@@ -124,12 +124,12 @@ TracedGeometry::Met TracedGeometry::with_what_touches(const Ray& ray, const Cros
 
 Ray TracedGeometry::behind(const Ray& ray, const Met& met) {
     const CrossingInScene& last = met.joined ? *met.joined : met.first;
-    Ray on{last.p_out, ray.direction, met.behind.phase(), {}, met.behind, std::nullopt};
+    Ray on{last.p_to, ray.direction, met.behind.phase(), {}, met.behind, std::nullopt};
     if (met.joined) {
         on.origin -= static_cast<float>(met.apart()) * met.first.normal;
     } else {
         on.hint = last.hint;
-        on.start = StartInCopy{last.copy.number, last.crossing.p_out};
+        on.start = StartInCopy{last.copy.number, last.crossing.p_to};
     }
     return on;
 }
@@ -144,20 +144,20 @@ Surface TracedGeometry::surface_of_several(const Ray& ray, const Met& met, doubl
     Surface surface{.distance = static_cast<float>(distance),
                     .normal = first.normal,
                     .geometric_normal = first.normal,
-                    .near_side = {first.p_in, from, ray.in, std::nullopt},
+                    .near_side = {first.p_from, from, ray.in, std::nullopt},
                     .far_side = std::nullopt,
                     .optics = interfaces_.between(outside.index, inside.index),
                     .hint = {},
                     .object = shown.copy.object,
                     .entered = to,
-                    .place = {shown.crossing.p_in, shown.normal_in_object, std::nullopt}};
+                    .place = {shown.crossing.p_from, shown.normal_in_object, std::nullopt}};
     surface.place.copy = shown.copy.number;
     const Ray on = behind(ray, met);
     if (met.joined) {
         surface.near_side.origin += static_cast<float>(met.apart()) * first.normal;
     } else {
         surface.hint = first.hint;
-        surface.near_side.start = StartInCopy{first.copy.number, first.crossing.p_in};
+        surface.near_side.start = StartInCopy{first.copy.number, first.crossing.p_from};
     }
     if (is_clear(scene_.materials[to.index])) surface.far_side = {on.origin, to, on.in, on.start};
     choose_of_mixture(surface);

@@ -154,19 +154,19 @@ bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCR
     if (!embree::is_hit(hit)) return false;
     const Crossing& c = query.crossing;
     if (hit.hit.geomID == object_id)
-        if (const auto mesh = mesh_flush_with_interface(ray, c.to, c.t_in, c.p_in, c.p_out)) hit = *mesh;
+        if (const auto mesh = mesh_flush_with_interface(ray, c.to, c.t_from, c.p_from, c.p_to)) hit = *mesh;
     return true;
 }
 
 std::optional<RTCRayHit> TracedGeometry::mesh_flush_with_interface(const Ray& ray, Phase to, float distance,
-                                                                   const glm::vec3& p_in,
-                                                                   const glm::vec3& p_out) const {
+                                                                   const glm::vec3& p_from,
+                                                                   const glm::vec3& p_to) const {
     if (mesh_bounds_.empty() || !is_clear(scene_.materials[to.index])) return std::nullopt;
     // The relative rounding error of Embree's distances, and of coordinates.
     constexpr float rounding = 4e-7f;
-    const float largest = std::max({std::abs(p_in.x), std::abs(p_in.y), std::abs(p_in.z)});
-    const float depth = glm::length(p_out - p_in) + rounding * (distance + largest);
-    if (std::ranges::none_of(mesh_bounds_, [&](const Bounds& box) { return box.inflated(depth).contains(p_in); }))
+    const float largest = std::max({std::abs(p_from.x), std::abs(p_from.y), std::abs(p_from.z)});
+    const float depth = glm::length(p_to - p_from) + rounding * (distance + largest);
+    if (std::ranges::none_of(mesh_bounds_, [&](const Bounds& box) { return box.inflated(depth).contains(p_from); }))
         return std::nullopt;
     embree::Query query;
     query.skips_cells = true;
@@ -198,7 +198,7 @@ Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& c
     const bool is_mesh = hit.hit.geomID != object_id;
     const Material& met =
         is_mesh ? scene_.meshes[hit.hit.geomID - first_mesh_id].material : scene_.materials[query.crossing.to.index];
-    if (!is_clear(met) && !has_pane(met) && !glows(met)) return Blocked{is_mesh ? hit.ray.tfar : query.crossing.t_in};
+    if (!is_clear(met) && !has_pane(met) && !glows(met)) return Blocked{is_mesh ? hit.ray.tfar : query.crossing.t_from};
     const Surface surface = is_mesh ? surface_of_mesh(ray, hit) : surface_of_object(ray, query, hit);
     if (surface.is_transparent()) return surface;
     return blocked_by(surface);
@@ -207,17 +207,17 @@ Visibility TracedGeometry::visibility(const Ray& ray, float far, PathCounters& c
 Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& query, const RTCRayHit& hit) const {
     const Crossing& c = query.crossing;
     const CrossingNormal normal = object().normal(hit.hit.primID, c, ray.direction);
-    Surface surface{.distance = c.t_in,
+    Surface surface{.distance = c.t_from,
                     .normal = -normal.unit,
                     .geometric_normal = -normal.unit,
-                    .near_side = {c.p_in, c.from},
+                    .near_side = {c.p_from, c.from},
                     .far_side = std::nullopt,
                     .optics = interfaces_.between(c.from.index, c.to.index),
                     .hint = {embree::ObjectInstance::of(hit.hit), hit.hit.primID, c.from, normal.gradient},
                     .object = 0,
                     .entered = c.to,
-                    .place = {c.p_in, -normal.unit, std::nullopt}};
-    if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_out, c.to};
+                    .place = {c.p_from, -normal.unit, std::nullopt}};
+    if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_to, c.to};
     choose_of_mixture(surface);
     add_bumps_and_grain(surface, ray.direction, AlreadyInScene());
     return surface;

@@ -66,7 +66,7 @@ class TracedGeometry {
         Copy copy;
         StartHint hint;
         double distance = 0;            ///< along the ray
-        glm::vec3 p_in{0}, p_out{0};    ///< the ends of the bracket
+        glm::vec3 p_from{0}, p_to{0};   ///< the ends of the bracket
         glm::vec3 normal{0};            ///< unit length, on the side from which the ray comes
         glm::vec3 normal_in_object{0};  ///< the same in object space
         double tolerance = 0;           ///< PlacedGeometry::tolerance
@@ -86,11 +86,11 @@ class TracedGeometry {
     void find_closest_hit(embree::Query&, RTCRayHit&) const;
     bool trace(const Ray& ray, float far, embree::Query& query, RTCRayHit& hit, PathCounters& counters) const;
     /// The mesh that is flush with an interface, if there is one and light continues behind the interface, in the phase
-    /// `to`. The interface is between the points p_in, which is `distance` from the ray's origin, and p_out. The ray
-    /// would continue from p_out and could start behind the mesh, so a mesh between the two counts as in front of the
+    /// `to`. The interface is between the points p_from, which is `distance` from the ray's origin, and p_to. The ray
+    /// would continue from p_to and could start behind the mesh, so a mesh between the two counts as in front of the
     /// interface.
-    std::optional<RTCRayHit> mesh_flush_with_interface(const Ray& ray, Phase to, float distance, const glm::vec3& p_in,
-                                                       const glm::vec3& p_out) const;
+    std::optional<RTCRayHit> mesh_flush_with_interface(const Ray& ray, Phase to, float distance,
+                                                       const glm::vec3& p_from, const glm::vec3& p_to) const;
     Surface surface_of_object(const Ray& ray, const embree::Query& query, const RTCRayHit& hit) const;
     Surface surface_of_mesh(const Ray& ray, const RTCRayHit& hit) const;
     /// Whether nothing is between two points. The ray has reached the first one.

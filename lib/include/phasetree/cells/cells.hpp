@@ -21,8 +21,9 @@ struct CellsFile;
 /// and a distance within which the label does not change. Immutable; any thread may read it.
 class InterfaceCells {
   public:
-    /// Build the cells, with all threads of TBB's arena. Throws ModelError if the object is unbounded, empty, too
-    /// large, or too far from the origin for its size, and BuildCancelled if CellOptions::cancelled returned true.
+    /// Build the cells, with all threads of TBB's arena. Throws ModelError if the object is unbounded, empty, too small
+    /// or too large for floats, or too far from the origin for its size, and BuildCancelled if CellOptions::cancelled
+    /// returned true.
     explicit InterfaceCells(const Phased& object, const CellOptions& options = {});
     ~InterfaceCells();
 
@@ -64,8 +65,8 @@ class InterfaceCells {
     const std::string& warning() const;
     /// How far a cell's box extends beyond its share of space, in the scene's unit of length: a few resolutions.
     float reach() const;
-    /// How far before the point where a ray enters a cell's box the cell's crossing may lie, in the scene's unit of
-    /// length. If the phase has already changed where the ray enters, the search looks back this far for the change.
+    /// The farthest that a cell's crossing may lie before the point where the ray enters the cell's box, in the scene's
+    /// unit of length. If the phase has already changed at that point, the search looks back this far for the change.
     float look_back() const;
     /// The phases of CellOptions::opaque.
     PhaseSet opaque() const;

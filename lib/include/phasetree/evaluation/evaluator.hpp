@@ -64,8 +64,8 @@ class Evaluator {
     std::shared_ptr<const evaluation::Assembly> assembly_;
 };
 
-/// The SIMD instruction sets supported by both this build and this machine, best first: "AVX-512", "AVX2", "SSE4",
-/// "SSE2".
+/// The SIMD instruction sets supported by both this build and this machine, best first: "AVX-512", "AVX2", "SSE4" and
+/// "SSE2" on x86-64, "baseline" elsewhere.
 std::vector<std::string> simd_targets();
 /// The instruction set in use.
 std::string simd_target();

@@ -17,7 +17,8 @@ struct PreciseProgram;
 
 /// What is known of an object at a point.
 struct PreciseSample {
-    /// The phase of the smallest component, including the vacuum; among equal components, the lowest index.
+    /// The phase with the smallest component of Φ (its signed distance), the vacuum included; the lowest index if
+    /// several are equal.
     Phase phase;
     /// The smallest component, at most 0 up to rounding errors.
     double own = 0;
@@ -29,10 +30,11 @@ struct PreciseSample {
 struct InterfaceSample {
     double value = 0;        ///< f
     glm::dvec3 gradient{0};  ///< of f, by reverse-mode differentiation of the program
-    /// The primitive whose distance f depends on most.
-    double weight = 0;               ///< the derivative of f by that distance; 0 if f depends on none
+
+    // The primitive whose distance f depends on most.
+    double weight = 0;               ///< the derivative of f with respect to that distance; 0 if f depends on none
     glm::dvec3 inner{0};             ///< the point in the primitive's own space
-    glm::dmat3 inner_by_point{1.0};  ///< its derivative by the point of evaluation; a column per coordinate of that
+    glm::dmat3 inner_by_point{1.0};  ///< the Jacobian of `inner` with respect to the point of evaluation
 };
 
 /// Evaluates the components Φ of an object in double precision.
@@ -43,9 +45,9 @@ struct InterfaceSample {
 /// floats. Sines, exponentials and angles are those of the standard library instead of polynomials for floats, and are
 /// accurate to about the last bit of a double.
 ///
-/// *Limits.* Meshes, balls, volumes and labels search for the data near a point with the point rounded to floats, and
-/// evaluate what they find in double precision. Their values may jump by a rounding error of floats where the search
-/// finds other data. value_error() depends on whether an object has such nodes.
+/// *Limits.* Meshes, balls, volumes and labels round a point to floats to search for the data near it, but evaluate
+/// what they find in double precision. Their values may jump by a rounding error of floats where the search finds other
+/// data. value_error() depends on whether an object has such nodes.
 ///
 /// Immutable; any thread may use it. Results do not depend on the number of threads.
 class PreciseEvaluator {
@@ -71,7 +73,7 @@ class PreciseEvaluator {
     InterfaceSample interface_sample(const glm::dvec3& p, Phase inside, Phase outside) const;
 
     /// The phases at many points. `phases` must be as long as `points`. Uses the threads of TBB's arena. `cancelled` is
-    /// polled by any thread. Returns false if it returned true; some phases are then not written.
+    /// polled by any thread. Returns false if `cancelled` returned true; some phases are then not written.
     bool locate(std::span<const glm::dvec3> points, std::span<Phase> phases,
                 const std::function<bool()>& cancelled = {}) const;
     /// The same for safe distances.

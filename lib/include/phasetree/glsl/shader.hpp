@@ -46,7 +46,8 @@ struct GlslOptions {
 /// resolution  the maximum length of the bracket around a crossing (see Crossing). Shaders round more often than the
 ///             CPU, so it should be at least 10⁻⁵ of the bounds' diagonal.
 ///
-/// prepare_to_trace() returns both. Throws ModelError if the program is longer than max_glsl_instructions.
+/// prepare_to_trace() computes suitable bounds and a resolution. Throws ModelError if the program is longer than
+/// max_glsl_instructions.
 GlslShader make_glsl(const Program&, const Bounds&, float resolution, const GlslOptions& = {});
 
 /// The maximum number of instructions. The numbers of longer programs would exceed what a web page or a driver accepts.

@@ -13,8 +13,8 @@
 
 namespace phasetree {
 
-/// Callbacks with which a program reads one kind of file. They may throw any std::exception whose what() describes the
-/// problem.
+/// Callbacks with which an application reads one kind of file. They may throw any std::exception whose what() describes
+/// the problem.
 template <class Content>
 struct FileReader {
     /// `part` names the content to read if a file may hold several, for example a grid; otherwise it is empty. For

@@ -45,7 +45,7 @@ struct MeshFile {
 /// numbers are rejected only if a face uses them. Throws SceneError for other formats, malformed files, and files with
 /// too many triangles; the message never contains text from the file.
 ///
-/// * OBJ: v, optionally with colours after the coordinates, vt, vn and f.
+/// * OBJ: the statements v (optionally with a colour after the coordinates), vt, vn and f.
 /// * PLY. Element "vertex": x y z; nx ny nz; red green blue; texture coordinates as s t, u v or texture_u texture_v.
 ///   Element "face": the list vertex_indices or vertex_index; the list texcoord, with two numbers per corner. Integer
 ///   colours are divided by the maximum of their type.

@@ -14,7 +14,7 @@ namespace phasetree {
 /// Reads line by line, so that rows from a pipe can be used as they arrive.
 ///
 /// Lines end with LF, CR LF or CR. A byte order mark, empty lines, lines that contain only separators, and lines that
-/// begin with # are skipped. Numbers have a decimal point.
+/// begin with # are skipped. The decimal separator is a point.
 ///
 /// With a header, columns may be in any order, and other columns are ignored. Names are not case-sensitive. The
 /// separator is a comma, semicolon, tab or blank: the one with which the header has the most of the expected columns.

@@ -95,9 +95,8 @@ std::string schema_reference(std::string_view definition);
 /// The schema of a value that may be written in two ways.
 std::string schema_of_either(const std::string& one, const std::string& other);
 
-/// Make the complete schema from which editors complete and check scene files. `file` lists the keys of a file. The
-/// schema contains the given definitions (name and schema), and defines "field" and "object" from the nodes, and
-/// "keys".
+/// Make the complete schema from which editors complete and check scene files. `file` lists the keys of a file. Besides
+/// the given definitions (name and schema), the schema defines "keys", and "field" and "object", which list the nodes.
 std::string scene_schema(const KindPage& file, std::span<const std::pair<std::string, std::string>> definitions);
 
 }  // namespace phasetree

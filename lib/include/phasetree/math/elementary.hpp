@@ -1,6 +1,6 @@
-// Functions for formulas that number.hpp does not define, for the same number types. They do the same IEEE operations
-// in the same order for all types, because library functions differ between scalar and SIMD code. `Enclosure` has its
-// own overloads, without discontinuities.
+// More functions for formulas, in addition to those of number.hpp and for the same number types. They do the same
+// IEEE operations in the same order for all types, because library functions differ between scalar and SIMD code.
+// `Enclosure` has its own overloads, without discontinuities.
 #pragma once
 
 #include "phasetree/math/number.hpp"

@@ -16,9 +16,9 @@ float found_equation(const Vec3<float>& p, const Search& search, const Equation&
     return equation(search(p), p);
 }
 
-/// The same for one equation that holds at all points, and whose constants alone are found by the search. search(p, to,
-/// stride) writes them to to[0], to[stride], …, and equation(numbers, p) receives an array of them. This lets batches
-/// evaluate the equation for all lanes at once.
+/// The same for an equation that has the same form at all points: the search supplies only its `count` constants, never
+/// a choice of equation. search(p, to, stride) writes them to to[0], to[stride], …, and equation(numbers, p) receives
+/// an array of them. This lets batches evaluate the equation for all lanes at once.
 template <std::size_t count, class Search, class Equation, class Otherwise>
 float gathered_equation(const Vec3<float>& p, const Search& search, const Equation& equation, const Otherwise&) {
     std::array<float, count> numbers;

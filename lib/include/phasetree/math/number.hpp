@@ -6,6 +6,9 @@
 //     Batch      SIMD, eight points at once
 //     Dual       value and gradient
 //     Recorded   emits instructions
+//     Precise    double precision
+//     Sourced    which node a value comes from
+//     Traced     emits GLSL
 //     Enclosure  the range of the values in a box
 //
 // `select` replaces branches. The first four types give identical values, bit for bit, because they do the same IEEE
@@ -100,16 +103,16 @@ T far_bound_inside(const T& f, const T& bound) {
     return min(f, bound);
 }
 
-/// The part of solid a where no solid b is nearer: max(a, (a − b)/2). It is negative where a is negative and less than
-/// b. Its slope is at most the larger of theirs. If both are infinite, the result is a, because max() returns its
+/// The part of solid a where b is not the nearer solid: max(a, (a − b)/2). It is negative where a is negative and less
+/// than b. Its slope is at most the larger of theirs. If both are infinite, the result is a, because max() returns its
 /// second operand if the first is NaN.
 template <class T>
 T nearer(const T& a, const T& b) {
     return max((a - b) * 0.5f, a);
 }
 
-/// The contribution of a skeleton at distance d to a blob of radius R: (1 − (d/R)²)³, and zero beyond R (Wyvill et al.,
-/// "Data Structure for Soft Objects", 1986, with the square for their cubic).
+/// The contribution of a skeleton at distance d to a blob of radius R: (1 − (d/R)²)³, and zero beyond R (after Wyvill
+/// et al., "Data Structure for Soft Objects", 1986, with a different polynomial).
 template <class T>
 T falloff(const T& d, float radius) {
     const T x = max(d, T(0.f)) * (1.f / radius);

@@ -1,15 +1,16 @@
-// Mathematical functions that give the same bits on every processor. Use them instead of the standard library's.
+// Mathematical functions that give the same bits on x86-64 and arm64 processors with fused multiply-adds, with rare
+// exceptions (below). Use them instead of the standard library's.
 //
 // The last bit of some functions of glibc differs between x86-64 and arm64: tan, asin, acos, atan2, log1p and expm1 of
 // floats, and exp2, cbrt, hypot and erfc of doubles. Here, floats are computed in double precision and rounded once.
 // This hides the difference, except where the exact value is so close to the middle between two floats that the error
-// in double precision matters: fewer than one call in 10⁸. cbrt and hypot consist of operations that IEEE 754 rounds
-// exactly, and exp2 calls pow.
+// in double precision matters: fewer than one call in 10⁸. cbrt and hypot consist of operations that IEEE 754 requires
+// to be correctly rounded, and exp2 calls pow.
 //
-// sin, cos, exp, log and pow agree for floats and doubles, so call the standard library's. Some functions of doubles
-// below agree too; they are here because a call does not show the type of its argument. For all of these, glibc uses
-// fused multiply-adds, on arm64 and on x86-64 processors that have them. Without them (Intel's processors before 2013,
-// for example), the last bit of functions of doubles differs.
+// The float and double versions of sin, cos, exp, log and pow are the same on x86-64 and arm64, so call the standard
+// library's. Some functions of doubles below agree too; they are here because a call does not show the type of its
+// argument. For all of these, glibc uses fused multiply-adds, on arm64 and on x86-64 processors that have them. Without
+// them (Intel's processors before 2013, for example), the last bit of functions of doubles differs.
 #pragma once
 
 #include <cmath>
@@ -68,7 +69,7 @@ inline double hypot(double x, double y) {
 inline float hypot(float x, float y) {
     return static_cast<float>(hypot(static_cast<double>(x), static_cast<double>(y)));
 }
-/// √(x² + y² + z²). With three arguments, the C++ library uses only operations that are rounded exactly.
+/// √(x² + y² + z²). With three arguments, the C++ library uses only operations that are correctly rounded.
 inline double hypot(double x, double y, double z) {
     return std::hypot(x, y, z);
 }

@@ -67,7 +67,7 @@ T value_noise(const Vec3<T>& p) {
     return lattice::centred(mix(along_yz(hashed_on(x.low)), along_yz(hashed_on(x.high)), x.blend));
 }
 
-/// Value noise over the plane, with the same range and slope. Each integer `which` gives a different noise.
+/// Value noise over the plane, with the same range and slope. The integer `which` selects one of 289 noises.
 template <class T>
 T value_noise(const T& x, const T& y, float which) {
     using lattice::hashed, lattice::hashed_on, lattice::mix;

@@ -11,7 +11,7 @@
 namespace phasetree {
 
 /// An estimate, and its standard error: in two of three cases the true area is within one standard error of the
-/// estimate, in 19 of 20 within two. Unlike the intervals of Measured, this is not certain.
+/// estimate, in 19 of 20 within two. Unlike the intervals of Measured, this is not guaranteed.
 struct EstimatedArea {
     double area = 0;  ///< in squared units of length
     double standard_error = 0;
@@ -32,8 +32,8 @@ struct AreaResult {
     struct OfContact : EstimatedArea {
         Phase first, second;  ///< in ascending order
     };
-    std::vector<OfPhase> phases;      ///< the whole surfaces, in ascending order, without the vacuum
-    std::vector<OfContact> contacts;  ///< the interfaces that lines have met, in ascending order
+    std::vector<OfPhase> phases;      ///< one per phase but the vacuum, ordered by phase: the area of its whole surface
+    std::vector<OfContact> contacts;  ///< the interfaces that lines have met, ordered by their phases
     std::size_t lines = 0;
     bool is_within_tolerance = false;  ///< also false if no line has met an interface
 };

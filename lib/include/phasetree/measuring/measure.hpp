@@ -14,8 +14,8 @@
 
 namespace phasetree {
 
-/// A number that certainly lies in [low, high], and an estimate of it, which also lies there. The estimate is usually
-/// far closer to the number than the interval is wide, but nothing is guaranteed about that.
+/// A number that is guaranteed to lie in [low, high], and an estimate of it, which also lies there. The estimate is
+/// usually far closer to the number than the interval is wide, but nothing is guaranteed about that.
 struct Measured {
     double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
     double estimate = 0;
@@ -42,7 +42,8 @@ struct MeasuredPhase {
     double density = 1;
     bool has_density = false;
     Body body;
-    /// The sides of the smallest box around the phase. If the phase may be empty, the intervals are infinite.
+    /// The phase's bounding box: its lowest and highest coordinates. If the phase may be empty, the intervals are
+    /// infinite.
     std::array<Measured, 3> box_low{}, box_high{};
 };
 
@@ -91,11 +92,11 @@ struct MeasureResult {
 /// The method is adaptive subdivision with guaranteed bounds. The bounds of the object are divided into boxes. In each,
 /// the program is pruned, and its values are enclosed, as for interface cells. If the enclosures prove that a box is in
 /// one phase, all of its volume counts for that phase. In any other box, a phase's component is enclosed between two
-/// linear functions with the same gradient where possible. Their zeros are parallel planes: the phase certainly
-/// contains the part of the box below one of them and nothing above the other. Where that is not possible, its share of
-/// the box is anything between nothing and all. Boxes that leave too much in doubt are divided.
+/// linear functions with the same gradient where possible. Their zeros are parallel planes: the phase is proven to
+/// contain the part of the box below one of them and nothing above the other. Where that is not possible, its share of
+/// the box is between 0 and 1. Boxes that leave too much in doubt are divided.
 ///
-/// *What is certain.* An interval contains the measure of the set of points whose smallest component is that of the
+/// *What is guaranteed.* An interval contains the measure of the set of points whose smallest component is that of the
 /// phase. This holds whether components are computed in real numbers or, as for labels, in 32 bits. The difference
 /// between the two, the rounding error of any component, is taken to be at most half a resolution (see
 /// InterfaceTracer). That allowance is the one assumption, and is the same for tracing (lib/README.md, "Allowances for
@@ -104,7 +105,7 @@ struct MeasureResult {
 /// most m additions, so a sum errs by at most m·2⁻⁵³ times the sum of the terms' magnitudes.
 ///
 /// Uses all threads of TBB's arena. The result does not depend on their number, unless measuring ends by time or is
-/// cancelled; intervals are certain then, too. Memory does not grow with the number of boxes. Thread-safe.
+/// cancelled; intervals are still guaranteed then. Memory does not grow with the number of boxes. Thread-safe.
 ///
 /// Throws ModelError if the object is empty or unbounded, or too far from the origin for its size; if the tolerance or
 /// the time is not a positive number; or if a density is negative or infinite, or is given for a phase that the object

@@ -53,8 +53,9 @@ struct NodeEffectsOptions {
 /// without it. There are three ways to leave out a node:
 ///
 /// * Items of lists, such as the operands of a union, are removed.
-/// * If an operation has one operand of its own kind and others, such as a difference the field that it cuts and the
-///   fields that it subtracts, one of the others is removed together with the operation, which leaves the first.
+/// * An operation with a main operand and others is replaced by its main operand: `subtract_shape`, for example, by the
+///   object that it cuts. If there is one other operand, here the shape, that one counts as left out, otherwise the
+///   operation.
 /// * An operation with a single operand, such as a translation, is replaced by this operand.
 ///
 /// Both trees are divided into the same boxes. A box is done if both trees prune to the same program in it, or if it

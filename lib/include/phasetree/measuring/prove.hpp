@@ -16,7 +16,6 @@
 namespace phasetree {
 
 /// The phase is not empty.
-
 struct IsPresent {
     Phase phase;
 };
@@ -51,7 +50,7 @@ struct IsThick {
     double at_least = 0;  ///< in the scene's unit of length. Positive
     double reach = 0;     ///< 0 for `at_least`; otherwise more than half of `at_least`
 };
-/// None of the phases is empty, and their volume together is in this interval.
+/// None of the phases is empty, and the sum of their volumes times their weights is in [at_least, at_most].
 struct HasVolume {
     std::vector<std::pair<Phase, double>> weights;  ///< phases, and factors of their volumes, such as densities
     double at_least = 0, at_most = std::numeric_limits<double>::infinity();
@@ -67,7 +66,7 @@ struct HasTightBounds {
 using Statement = std::variant<IsPresent, IsConnected, IsClosed, AreApart, AreTouching, IsThick, HasVolume,
                                HasNoDeadNodes, HasTightBounds>;
 
-/// A point, and the phase that certainly is there.
+/// A point, and the phase that is proven to be there.
 struct Witness {
     glm::vec3 point;
     Phase phase;
@@ -103,12 +102,12 @@ void check_statement(const Statement&);
 /// Decide statements about an object.
 ///
 /// Boxes are divided where enclosures of distances, as for measure(), do not prove in which phase they are. Each
-/// statement is decided from the boxes that are certainly in a phase, those that certainly do not meet it, and the
-/// rest, which may or may not. Boxes are made smaller until all statements are decided or the resolution is reached.
+/// statement is decided from the boxes that are proven to be in a phase, those that are proven not to meet it, and the
+/// rest. Boxes are made smaller until all statements are decided or the resolution is reached.
 ///
-/// *What is certain.* A statement that is proved or refuted is true or false of the sets of points whose smallest
+/// *What is guaranteed.* A statement that is proved or refuted is true or false of the sets of points whose smallest
 /// component is that of a phase, up to the rounding errors that measure() allows for. "Not empty" and "a piece" refer
-/// to sets with an interior. Witnesses are points that certainly are in their phases:
+/// to sets with an interior. Witnesses are points that are proven to be in their phases:
 ///
 /// * present, proved: a point in the phase
 /// * connected, refuted: two points of the phase in different pieces
@@ -119,7 +118,7 @@ void check_statement(const Statement&);
 ///   witnesses of "apart" if the phases touch
 /// * thick, refuted: a point of the phase that is not within reach of a ball
 ///
-/// A phase that is certainly empty refutes a statement without a witness.
+/// A phase that is proven to be empty refutes a statement without a witness.
 ///
 /// Uses all threads of TBB's arena. Results do not depend on their number, unless time ends the search or it is
 /// cancelled. The time is divided as follows: at most a quarter for HasVolume, then the division into boxes for the

@@ -1,4 +1,4 @@
-// Solving: finding the number for which a phase of an object has a volume.
+// Solving: finding the number for which a phase of an object has a given volume.
 #pragma once
 
 #include <cstddef>
@@ -60,8 +60,8 @@ std::string_view name_of(SolveEnd);
 
 struct SolveResult {
     SolveEnd end = SolveEnd::width;
-    /// The ends of the bracket. For each, the certain interval of the quantity does not contain the target. If there is
-    /// no bracket, the ends that were measured.
+    /// The ends of the bracket. For each, the guaranteed interval of the quantity does not contain the target. If there
+    /// is no bracket, the ends that were measured.
     std::optional<SolvePoint> low, high;
     /// A number in the bracket with few digits, for which the quantity is close to the target. Measured if there was
     /// time.
@@ -80,11 +80,11 @@ struct SolveResult {
 /// object     called from the calling thread. Its exceptions are passed on.
 /// low, high  the first bracket; low < high, both finite.
 ///
-/// A number becomes an end of the bracket only if the certain interval of its quantity lies entirely on one side of the
-/// target. So the quantity is certainly below the target at one end and above it at the other. If it is a continuous
-/// function of the number, it has the value somewhere in between, once or several times; one such number is found. If
-/// it jumps across the target, the bracket closes in on a jump. Intervals are narrowed only as far as the decision
-/// needs. If the middle of the bracket is too close to the target for that, nearby numbers are tried.
+/// A number becomes an end of the bracket only if the guaranteed interval of its quantity lies entirely on one side of
+/// the target. So the quantity is certainly below the target at one end and above it at the other. If it is a
+/// continuous function of the number, it has the value somewhere in between, once or several times; one such number is
+/// found. If it jumps across the target, the bracket closes in on a jump. Intervals are narrowed only as far as the
+/// decision needs. If the middle of the bracket is too close to the target for that, nearby numbers are tried.
 ///
 /// The result does not depend on the number of threads, unless solving ends by time or is cancelled. Throws ModelError
 /// for arguments out of range, and for objects that measure() rejects, except empty ones, whose volumes are 0.

@@ -24,9 +24,9 @@ class Phased;
 /// root's box are passed down the tree. Each node returns its support along them, the maximum of d·p. A map of space
 /// transforms the directions for its child, so a chain of rotations loses nothing:
 ///     max of d·p over p in M A + v  =  max of (Mᵀd)·p over p in A,  plus d·v.
-/// The six supports are stored as a Bounds, those of the low sides negated: a box along the root's axes, relative to
-/// the node's own origin. A map that folds space may map two opposite directions to one, so that low > high. Here, such
-/// a box does not count as empty, although Bounds::empty() is true; only Bounds{} does.
+/// The six supports are stored as a Bounds, with those of the low sides negated. It is a box whose axes are the root's
+/// and whose origin is the node's. A map that folds space may map two opposite directions to one, so that low > high.
+/// Here, such a box does not count as empty, although Bounds::empty() is true; only Bounds{} does.
 class BoundsQuery {
   public:
     /// The outward normals of the low sides along x, y and z, then those of the high sides, in the space of the node

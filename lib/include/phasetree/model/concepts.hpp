@@ -12,6 +12,10 @@
 
 namespace phasetree {
 
+// An operator is a node with operands. It has a template evaluate(domain, p), or components of it. The domain defines
+// what evaluating means: computing values, recording instructions, or finding the primitive that a value comes from.
+// src/tree/domain.hpp lists its functions (field, phases, primitive, map, one_lipschitz).
+
 /// A list of types. The nodes are enumerated in this form.
 template <class... Ts>
 struct TypeList {

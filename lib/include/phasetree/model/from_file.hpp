@@ -8,11 +8,13 @@
 
 namespace phasetree {
 
-/// How files with this content are read. Each content has a specialisation beside its definition, with one member:
+/// How files with this content are read. Each type of content is specialised next to its definition, with one of these
+/// members:
 ///   - `static Content read(const std::filesystem::path&)`, if this library reads such files. It may throw any
 ///     std::exception whose what() describes the problem.
-///   - `static constexpr std::string_view no_reader`, if programs read them (FileReaders in io/file_readers.hpp). It is
-///     the error of a program without a reader, such as "this program cannot read fonts".
+///   - `static constexpr std::string_view no_reader`, if the application must supply a reader (FileReaders in
+///     io/file_readers.hpp). It is the error message of an application without one, such as "this program cannot read
+///     fonts".
 template <class Content>
 struct FileFormat;
 
@@ -27,9 +29,9 @@ concept ReadByProgram = requires {
 template <class Content>
 concept FileContent = ReadByLibrary<Content> || ReadByProgram<Content>;
 
-/// A parameter whose content is in a file: the file's name as in the scene, and its content. A program that creates the
-/// content itself leaves the name empty. The parameter's name must be `file`. If a file may hold several contents, the
-/// node has a function part_of_file(), which returns the name of the requested one.
+/// A parameter whose content is in a file: the file's name as in the scene, and its content. An application that
+/// creates the content itself leaves the name empty. The parameter's name must be `file`. If a file may hold several
+/// contents, the node has a function part_of_file(), which returns the name of the requested one.
 template <class Content>
 struct FromFile {
     std::string path{};

@@ -20,7 +20,8 @@ namespace phasetree {
 struct FieldNode;
 struct PhasedNode;
 
-/// Thrown for a node with an invalid parameter. what() says which one and why.
+/// Thrown for a tree that is invalid or unusable for the requested task, such as a node with an invalid parameter or an
+/// unbounded object, and for arguments out of range. what() says what is wrong.
 class ModelError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

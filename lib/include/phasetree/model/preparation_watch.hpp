@@ -12,7 +12,7 @@ class PreparationCancelled : public std::runtime_error {
     PreparationCancelled() : std::runtime_error("preparing a node was cancelled") {}
 };
 
-/// Watches the nodes that this thread creates, or reads from a scene, while the object exists. Some of them derive data
+/// As long as it exists, watches the nodes that this thread creates or reads from a scene. Some of them derive data
 /// from their parameters and files, which takes seconds for a mesh of millions of triangles. If there are several
 /// watches, the newest one counts.
 class PreparationWatch {

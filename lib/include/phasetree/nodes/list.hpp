@@ -1,5 +1,6 @@
 // The list of all nodes. To add a node, write its file, #include it here and add it to a list below. The evaluators,
-// the program, the scene format, the node reference and the tests over all nodes are derived from these lists.
+// the program, the scene format, the node reference and the tests over all nodes are derived from these lists. A node
+// with operands has a template evaluate(domain, p), or components of it; model/concepts.hpp says what a domain is.
 #pragma once
 
 #include <variant>

@@ -26,7 +26,7 @@ enum class Op : std::uint16_t {
     guarded,  ///< max(a, min(b, c − a)): field b with a bound a; equals a where a ≥ c/2, so b may jump there
     falloff,  ///< (1 − (a/c)²)³, zero for a > c
     corner,   ///< |(max(a, 0), max(b, 0))| + min(max(a, b), 0), where a and b vary along orthogonal directions
-    nearer,   ///< max((a − b)/2, a): the part of solid a where no solid b is nearer
+    nearer,   ///< max((a − b)/2, a): the part of solid a where b is not the nearer solid
     first_primitive
 };
 
@@ -36,8 +36,8 @@ struct Instruction {
     Op op{};
     std::uint32_t a = 0;
     std::uint32_t b = 0;
-    /// Offset of its constant or floats in the program's constants. They are stored in the order of the instructions
-    /// without gaps, so they end where those of the next instruction start.
+    /// Where this instruction's constants start in Program::constants. Constants are stored in the order of the
+    /// instructions, without gaps, so they end where the next instruction's start.
     std::uint32_t data = 0;
 };
 

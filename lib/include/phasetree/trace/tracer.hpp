@@ -28,8 +28,8 @@ class InterfaceTracer {
   public:
     /// Prepare an object for tracing.
     ///
-    /// `resolution`, in the scene's unit of length, is the smallest thickness, along a ray, of phases that are certain
-    /// to be found. Thinner phases may be missed. In two cases a thicker phase may be missed as well:
+    /// `resolution`, in the scene's unit of length, is the smallest thickness, along a ray, of phases that are
+    /// guaranteed to be found. Thinner phases may be missed. In two cases a thicker phase may be missed as well:
     ///   - at most 2.75 r of the ray lies in the phase, and at most r of that is deeper inside than r/16, where r is
     ///     the resolution;
     ///   - the ray grazes the phase: it is nowhere deeper inside than r/16.
@@ -49,8 +49,8 @@ class InterfaceTracer {
     /// direction     of unit length.
     /// t_min, t_max  the range of distances from the origin.
     /// carried       the phase that the ray is in, as known from the crossing at which it starts; by default, the phase
-    ///               at the start (its label, see label() in model/handle.hpp). If that differs from the carried phase
-    ///               by more than rounding error can account for, there is a crossing where the search starts (see
+    ///               at the start (its label, see label() in model/handle.hpp). If that point is deeper in another
+    ///               phase than rounding errors can explain, there is a crossing where the search starts (see
     ///               Crossing).
     ///
     /// Counters, if given, are incremented. Returns nullopt if there is no crossing.

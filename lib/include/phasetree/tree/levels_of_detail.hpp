@@ -16,9 +16,9 @@ struct DetailView {
 ///
 /// Affects each level_of_detail node that has errors but no distances. Level i + 1 is used from the distance errors[i]
 /// / angle on, where its error looks no larger than the view allows. The view is transformed through nodes that
-/// translate, rotate and scale. A node that is a descendant of copies, of a bending warp, or of a warp of only some
-/// phases appears in several places or distorted. Such a node keeps its finest level. Subtrees without level_of_detail
-/// nodes to set are shared with the original.
+/// translate, rotate and scale. A node that its ancestors copy or distort, or that is below a warp of only some phases,
+/// appears in several places or distorted. Such a node keeps its finest level. Subtrees without level_of_detail nodes
+/// to set are shared with the original.
 ///
 /// The result is an ordinary object, the same for all rays. It is as accurate as the nodes' errors claim. Throws
 /// ModelError if the angle is not positive and finite.

@@ -16,21 +16,22 @@
  * Spaces. "Geometry space" is the space of the RTCScene to which the geometry is attached; for an instance, the
  * instanced scene's. Without motion (phasetreeSetGeometryMotion) it is the tree's own space.
  *
- * Sides. The two phases at an interface are called `from` and `to`: a ray passes from `from` to `to`. The same names
- * end the members that belong to one side: tFrom and pointFrom are in `from`, tTo and pointTo in `to`. For the closest
- * interface to a point (PhasetreeClosest), `from` is on the side of that point. RTCHit.Ng points into `from`, against
- * the ray; the normal of a PhasetreePreciseCrossing points into `to`.
+ * Sides. The two phases at an interface are called `from` and `to`: a ray passes from `from` to `to`. Members
+ * that belong to one side have its name as a suffix: tFrom and pointFrom are in `from`, tTo and pointTo in `to`. For
+ * the closest interface to a point (PhasetreeClosest), `from` is on the side of that point. RTCHit.Ng points into
+ * `from`, against the ray; the normal of a PhasetreePreciseCrossing points into `to`.
  *
- * Errors. Functions that can fail return a PhasetreeError, except phasetreeNewImageValues(), which returns NULL. If the
- * error is not PHASETREE_ERROR_NONE, nothing has changed, the outputs are untouched, and phasetreeGetErrorMessage()
- * says which argument is wrong and why. No C++ exception leaves the library. No argument makes it abort, except invalid
- * memory: an array that is too short, a string that is not null-terminated, or an invalid pointer.
+ * Errors. Functions that can fail return a PhasetreeError, except phasetreeNewImageValues(), which returns NULL,
+ * and phasetreePointQueryFunction(), which returns false. If the error is not PHASETREE_ERROR_NONE, nothing has
+ * changed, the outputs are untouched, and phasetreeGetErrorMessage() says which argument is wrong and why. No C++
+ * exception leaves the library. No argument makes it abort, except invalid memory: an array that is too short, a string
+ * that is not null-terminated, or an invalid pointer.
  *
- * Handles. PhasetreeTree and PhasetreeGeometry are opaque and reference counted. A function named New returns a handle
- * with one reference, owned by the caller. Retain adds a reference, Release drops one, and dropping the last one frees
- * the object. NULL, freed handles, handles of the other kind and arbitrary pointers are detected and give
- * PHASETREE_ERROR_INVALID_HANDLE; handle values are never reused. Releasing a handle too often while others hold
- * references drops one of theirs, which no library can detect.
+ * Handles. PhasetreeTree and PhasetreeGeometry are opaque and reference counted. phasetreeNewTree… and
+ * phasetreeNewGeometry… return a handle with one reference, owned by the caller. Retain adds a reference, Release drops
+ * one, and dropping the last one frees the object. NULL, freed handles, handles of the other kind and arbitrary
+ * pointers are detected and give PHASETREE_ERROR_INVALID_HANDLE; handle values are never reused. Releasing a handle too
+ * often while others hold references drops one of theirs, which no library can detect.
  *
  * Threads. Any thread may call any function at any time, with one exception: an "exclusive" call must not run while
  * another thread uses the same geometry in any way, including tracing a scene it is attached to. (Embree has the same

@@ -101,7 +101,7 @@ class Tree {
     }
     /// Convert a phasetree::SceneTree built with the C++ library. Include <phasetree/io/write.hpp> to use it. The tree
     /// is passed as text, without loss, so the two libraries need not be binary compatible. Files named by its nodes
-    /// are resolved relative to `name`.
+    /// are resolved relative to the folder of `name`.
     template <class SceneTree>
     static Tree of(const SceneTree& tree, const std::string& name = "<tree>",
                    const PhasetreeFileReader* reader = nullptr) {
@@ -252,7 +252,8 @@ class Geometry {
         check(phasetreeDecodeHit(get(), &rayhit, object_to_world, &hit));
         return hit;
     }
-    /// The position of a hit, or a point in geometry space, in the tree's own space.
+    /// Transforms the position of a hit to the tree's own space. The overload below transforms a point in geometry
+    /// space.
     std::array<float, 3> tree_point(const RTCRayHit& rayhit, const float* object_to_world = nullptr) const {
         std::array<float, 3> point{};
         check(phasetreeGetHitTreePoint(get(), &rayhit, object_to_world, point.data()));

@@ -42,10 +42,10 @@ inline void write_crossing(PhasetreeHit& hit, const Crossing& crossing, unsigned
     hit.from = crossing.from.index;
     hit.to = crossing.to.index;
     hit.cell = cell;
-    hit.tFrom = crossing.t_in / length;
-    hit.tTo = crossing.t_out / length;
-    write_point(hit.pointFrom, crossing.p_in);
-    write_point(hit.pointTo, crossing.p_out);
+    hit.tFrom = crossing.t_from / length;
+    hit.tTo = crossing.t_to / length;
+    write_point(hit.pointFrom, crossing.p_from);
+    write_point(hit.pointTo, crossing.p_to);
 }
 
 }  // namespace phasetree::embree::api

@@ -87,17 +87,17 @@ void move_on(Crossing& c, const InterfaceCells& cells, unsigned cell, const glm:
     Evaluator::Workspace& workspace = Evaluator::thread_workspace();
     // All samples are between these two.
     const Bounds box = cells.bounds(cell);
-    if (box.contains(c.p_out) && box.contains(c.p_out + t[batch_size - 1] * direction))
-        cells.sample_ray(cell, c.p_out, direction, t, s, workspace);
+    if (box.contains(c.p_to) && box.contains(c.p_to + t[batch_size - 1] * direction))
+        cells.sample_ray(cell, c.p_to, direction, t, s, workspace);
     else
-        cells.whole().sample_ray(c.p_out, direction, t, s, workspace);
+        cells.whole().sample_ray(c.p_to, direction, t, s, workspace);
     std::size_t best = 0;
     for (std::size_t i = 0; i < batch_size && s.distance[best] < blur; ++i) {
         if (s.label[i] != static_cast<float>(c.to.index)) break;
         if (s.distance[i] > s.distance[best]) best = i;
     }
-    c.t_out += t[best];
-    c.p_out += t[best] * direction;
+    c.t_to += t[best];
+    c.p_to += t[best] * direction;
 }
 
 }  // namespace
@@ -133,10 +133,10 @@ PhasetreeError phasetreeDecodeHit(PhasetreeGeometry geometry, const RTCRayHit* r
         if (c) {
             move_on(*c, object.cells(), found.cell, ray.direction,
                     std::max(blur * ray.length, ulps * (glm::length(ray.origin) + ray.far)));
-            in = c->p_in;
-            out = c->p_out;
-            found.tFrom = c->t_in / ray.length;
-            found.tTo = c->t_out / ray.length;
+            in = c->p_from;
+            out = c->p_to;
+            found.tFrom = c->t_from / ray.length;
+            found.tTo = c->t_to / ray.length;
         }
         write_point(found.pointFrom, data.motion.none() ? in : placement.point(in));
         write_point(found.pointTo, data.motion.none() ? out : placement.point(out));

@@ -92,7 +92,7 @@ class Packet {
         RTCHitN* const candidate = reinterpret_cast<RTCHitN*>(candidates_.data());
         write_hit(candidate, n_, i, c, normal, found.cell, arguments_->geomID, *arguments_->context);
         // Rounding must not put a hit outside the ray.
-        far = std::clamp(c.t_in / ray.length, std::min(RTCRayN_tnear(rays_, n_, i), before), before);
+        far = std::clamp(c.t_from / ray.length, std::min(RTCRayN_tnear(rays_, n_, i), before), before);
         if (filters && !is_accepted(i, candidate)) {
             far = before;
             return false;
@@ -129,8 +129,8 @@ class Packet {
                        const std::optional<Placement>& placement) {
         Crossing there = found.crossing;
         if (placement) {
-            there.p_in = placement->point(there.p_in);
-            there.p_out = placement->point(there.p_out);
+            there.p_from = placement->point(there.p_from);
+            there.p_to = placement->point(there.p_to);
         }
         write_crossing(hit, there, found.cell, ray.length);
     }

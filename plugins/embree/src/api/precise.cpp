@@ -65,10 +65,10 @@ PhasetreePreciseCrossing returned(const std::optional<PreciseCrossing>& found, P
         result.from = result.to = around.index;
         return result;
     }
-    result.tFrom = found->t_in;
-    result.tTo = found->t_out;
-    copy(found->p_in, result.pointFrom);
-    copy(found->p_out, result.pointTo);
+    result.tFrom = found->t_from;
+    result.tTo = found->t_to;
+    copy(found->p_from, result.pointFrom);
+    copy(found->p_to, result.pointTo);
     copy(found->normal, result.normal);
     result.from = found->from.index;
     result.to = found->to.index;

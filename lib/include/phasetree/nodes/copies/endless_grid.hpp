@@ -52,9 +52,8 @@ struct FoldedBox {
     }
 };
 
-/// Endless copies, which take few more instructions than a single one. Let b be the distance to the copies' boxes, and
-/// g the smallest clearance between a box and its cell's face. Then b ≥ g on the faces, where the folded field jumps,
-/// and
+/// Endless copies for only a few more instructions than one copy. Let b be the distance to the copies' boxes, and g the
+/// smallest clearance between a box and its cell's face. Then b ≥ g on the faces, where the folded field jumps, and
 ///     max(b, min(f, 2g − b))
 /// is b wherever b ≥ g. It is therefore continuous and 1-Lipschitz, and has the sign of f. This is why copies must not
 /// touch their cells' faces; see "Fields above a discontinuity" in lib/README.md.
@@ -64,8 +63,8 @@ struct EndlessGrid {
         "endless_grid", "",
         "max(b, min(φ(q), 2g − b)),  q = p − s ⌊(p − c)/s + ½⌋,  b = distance to the copies' "
         "boxes,  g = half the smallest gap between boxes",
-        "Copies repeated endlessly along the axes; they must not touch."};
-    static constexpr bool has_copies = true;
+        "Copies repeated endlessly along the axes; their bounding boxes must not touch."};
+    static constexpr bool has_copies = true;  ///< with_levels_of_detail() leaves the levels below it unchanged
     using Parts = TypeList<FoldMap, FoldedBox>;
     Child of{};
     glm::vec3 spacing{0};

@@ -11,7 +11,7 @@ struct FibonacciSphere : Copies<FibonacciSphere<Child>, Child> {
         "fibonacci_sphere", "7.7",
         "copies at R nᵢ, nᵢ of height 1 − (2i + 1)/n and longitude i π(3 − √5), their z axis "
         "along nᵢ; for objects, later copies replace earlier ones",
-        "Copies spread evenly over a sphere, on a Fibonacci spiral, standing on it."};
+        "Copies spread evenly over a sphere along a Fibonacci spiral, each with its z axis pointing outward."};
     int count = 10;
     float radius = 1;
 

@@ -83,7 +83,7 @@ struct Placement {
 /// copies, and placement(i). Placements are computed on demand, so a thousand copies take no more memory than one.
 template <class Node, class Child>
 struct Copies {
-    static constexpr bool has_copies = true;
+    static constexpr bool has_copies = true;  ///< with_levels_of_detail() leaves the levels below it unchanged
     using Parts = TypeList<PlacementMap, StandingMap>;
     Child of;
 

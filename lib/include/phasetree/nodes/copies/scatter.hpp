@@ -27,7 +27,8 @@ struct Scatter : Copies<Scatter<Child>, Child> {
         "scatter", "",
         "copies at random points of the surface f = 0, their z axis along ∇f; for objects, later copies replace "
         "earlier ones",
-        "Copies scattered over the surface of a field, standing on it, with random rotations."};
+        "Copies scattered over the surface of a field, each with its z axis pointing outward, and with random "
+        "rotations."};
     Field surface{};
     int count = 10;
     float spacing = 0;

@@ -12,8 +12,8 @@ namespace phasetree {
 /// Balls read from a file. Radii and phases are either empty or have one entry per centre. A phase is an index into a
 /// list outside the file.
 struct BallList {
-    /// Limit of readers and nodes. The hierarchy over the balls stores counts and indices as floats, which are exact up
-    /// to 2²⁴.
+    /// The maximum that file readers and nodes accept. The hierarchy over the balls stores counts and indices as
+    /// floats, which are exact up to 2²⁴.
     static constexpr std::size_t max_balls = 16'000'000;
 
     std::vector<glm::vec3> centres;

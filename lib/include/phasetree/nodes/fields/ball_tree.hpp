@@ -61,8 +61,7 @@ struct Tree {
     /// if `around` is given.
     static bool balls_in(const float* tree, const Wanted&, std::span<const float> around, std::vector<float>& floats);
 
-    /// The side of a cube with a ball's share of the box around all balls: its volume is that of the box divided by the
-    /// number of balls.
+    /// The cube root of the volume per ball: the volume of the box around all balls, divided by their number.
     static float spacing(const float* data);
 
     /// The maximum of d·p over all balls, with radii increased by `more`.

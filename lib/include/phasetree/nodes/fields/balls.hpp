@@ -12,7 +12,7 @@ namespace detail {
 inline constexpr Parameter file_of_balls{
     "file", "",
     "File of balls: PLY, whose element `vertex` has x, y, z and optionally radius and phase, or CSV with these names "
-    "in its first line; in metres. Replaces centres.",
+    "in its first line. Coordinates and radii are lengths in the scene's unit. Give either this or the centres.",
     limits::any, true};
 /// The centres and radii of balls, given as lists or in a file. Throws ModelError.
 std::vector<glm::vec4> given_balls(std::string_view node, const std::vector<glm::vec3>& centres,
@@ -62,7 +62,8 @@ struct Balls {
     /// The data, if a loop over all balls is acceptable; otherwise throws ModelError.
     static const float* few_balls(const float* data);
 
-    /// See LocalDataPrimitive.
+    /// The same primitive with only the data that matter in a small box: what LocalPrimitive (model/concepts.hpp) is
+    /// for primitives without data.
     struct Specialised {
         std::vector<float> values{};
 
@@ -89,7 +90,7 @@ struct Balls {
                            std::vector<float>& floats) {
         return specialise(data, range, std::numeric_limits<double>::infinity(), of, floats);
     }
-    /// See RequiredDataPrimitive. Values above `farthest` may be wrong as long as they stay
+    /// The same, where only values up to `farthest` are required: values above it may be wrong as long as they stay
     /// above it.
     static bool specialise(const float* data, const PointRange& range, double farthest, std::span<const float> of,
                            std::vector<float>& floats) {

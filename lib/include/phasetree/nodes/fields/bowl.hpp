@@ -27,7 +27,7 @@ struct Bowl {
     }
     void prepare() {
         detail::require_usable(info.name, {radius, thickness});
-        if (!(std::abs(cut) < radius)) throw ModelError("bowl: the rim is not on the ball");
+        if (!(std::abs(cut) < radius)) throw ModelError("bowl: \"cut\" must be between −\"radius\" and \"radius\"");
         if (!(thickness < 2 * radius)) throw ModelError("bowl: the wall fills the ball");
         rim = std::sqrt((radius - cut) * (radius + cut));
     }

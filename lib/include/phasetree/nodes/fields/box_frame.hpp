@@ -14,7 +14,7 @@ namespace phasetree {
 struct BoxFrame {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{"box_frame", "",
-                                   "min over the bars of |max(|bar| − size/2, 0)| − depth within the union",
+                                   "min over the bars of the distance to the bar, − depth within the union",
                                    "The twelve edges of a box as bars of square cross-section; exact."};
     glm::vec3 size{1};
     float thickness = 0.1f;
@@ -27,7 +27,7 @@ struct BoxFrame {
     }
     void prepare() const {
         if (!(thickness < 0.5f * std::min({size.x, size.y, size.z})))
-            throw ModelError("box_frame: the bars are as wide as half of the shortest edge");
+            throw ModelError("box_frame: \"thickness\" must be less than half of the shortest edge");
         detail::require_usable(info.name, {size.x, size.y, size.z, thickness});
     }
     template <class T>

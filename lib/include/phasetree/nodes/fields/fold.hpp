@@ -8,7 +8,7 @@
 namespace phasetree {
 
 namespace detail {
-/// f(child₀) ∘ f(child₁) ∘ …, from left to right.
+/// The values of the children at p, combined from the first to the last.
 template <class D, class Combine>
 typename D::Scalar fold(D& d, const std::vector<Field>& children, const typename D::Point& p, Combine&& combine) {
     typename D::Scalar result = d.field(children.front(), p);

@@ -11,7 +11,8 @@ namespace phasetree {
 
 namespace formula {
 
-/// The operations of a term. a, b and c are indices of earlier values.
+/// The operations of a term, which is a part of a formula that is one primitive (see Formula). a, b and c are indices
+/// of earlier values.
 enum class Op : std::uint8_t {
     x,
     y,
@@ -179,7 +180,7 @@ struct Formula {
                                    "slope of the formula must be bounded everywhere.",
                                    limits::any, true});
     }
-    /// Throws TextError if the text is wrong or its slope is unbounded.
+    /// Throws ModelError, with the position in the text, if the text is wrong or its slope is unbounded.
     void prepare();
 
     template <class D>

@@ -12,7 +12,7 @@ struct Gyroid {
     static constexpr NodeInfo info{"gyroid", "",
                                    "|sin x cos y + sin y cos z + sin z cos x|/(√3 k) − t/2,  (x, y, z) = k p,  k = "
                                    "2π/period",
-                                   "A wall along Schoen's gyroid, which fills space; a lower bound."};
+                                   "A wall along Schoen's gyroid, repeated endlessly along all axes; a lower bound."};
     float period = 1;
     float thickness = 0.1f;
 

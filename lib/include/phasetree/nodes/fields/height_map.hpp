@@ -17,10 +17,11 @@ namespace phasetree {
 /// high. Beyond its edges the image continues with the values at its border.
 struct HeightMap {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"height_map", "7.1",
-                                   "min(max((z − h(x, y))/√(1 + Lx² + Ly²), z − max h), z − min h),  h the quadratic "
-                                   "B-spline of the pixels",
-                                   "The ground below a height map about the z axis; black is low and white is high."};
+    static constexpr NodeInfo info{
+        "height_map", "7.1",
+        "min(max((z − h(x, y))/√(1 + Lx² + Ly²), z − max h), z − min h),  h the quadratic "
+        "B-spline of the pixels",
+        "The ground below a height map, which is centred on the z axis; black is low and white is high."};
     FromFile<HeightGrid> file{};
     float size_x = 10;
     float size_y = 10;
@@ -78,7 +79,7 @@ struct HeightMap {
         table[6] = high;
         highest = high;
     }
-    static constexpr std::uint16_t floats_read = 9;  ///< per evaluation; see OpTraits
+    static constexpr std::uint16_t floats_read = 9;  ///< the number of floats of data() that one evaluation reads
     static constexpr unsigned half_instructions = 120;
     static constexpr EnclosedBy enclosed_by = EnclosedBy::value_at_centre;
     std::span<const float> data() const { return table; }

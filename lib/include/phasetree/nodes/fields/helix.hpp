@@ -20,9 +20,9 @@ namespace phasetree {
 /// *Which turn.* D at the minima grows with |M|, so without ends the turn with the smallest |M| ≤ π has the nearest
 /// point. Let n₀ … n₁ be the turns whose middle x = 0 is between the ends. If the nearest turn's minimum is past the
 /// upper end, the candidates are that end and turn n₁. The minimum of any lower turn has a larger D. If turn n₁ has no
-/// minimum before the end, D decreases all the way to the end. Let y < 0 be the x of the end, relative to turn n₁ + 1.
-/// That turn has a minimum before the end if and only if F(y) ≥ 0 and y > −π. The same holds at the lower end. One
-/// solution of Kepler's equation and the two ends therefore give the exact distance.
+/// minimum before the end, D decreases all the way to the end. Let ξ < 0 be the value of x at the end, measured from
+/// the middle of turn n₁ + 1. That turn has a minimum before the end if and only if F(ξ) ≥ 0 and ξ > −π. The same holds
+/// at the lower end. One solution of Kepler's equation and the two ends therefore give the exact distance.
 struct Helix {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{

@@ -11,7 +11,9 @@ struct Icosahedron {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
     static constexpr NodeInfo info{
-        "icosahedron", "", "fold to one chamber;  |max((a, b, c), 0)| + min(a, 0)",
+        "icosahedron", "",
+        "fold to one chamber;  |max((a, b, c), 0)| + min(a, 0),  a the height above the face's plane, b the distance "
+        "beyond its edge, c beyond its corner",
         "A regular icosahedron about the origin. Each coordinate axis passes through the middles of two opposite "
         "edges: on x these edges are parallel to y, on y to z, on z to x. Exact."};
     float radius = 1;

@@ -16,7 +16,8 @@ struct Merge {
     template <class V>
     static void parameters(V&& v) {
         v(&Merge::of, Parameter{"of", "", "The object."});
-        v(&Merge::phases, Parameter{"phases", "", "The phases to merge; by default all.", limits::any, true});
+        v(&Merge::phases,
+          Parameter{"phases", "", "The phases to merge; by default all but the vacuum.", limits::any, true});
     }
     void prepare() const {
         const PhaseSet there = phasetree::phases(of);

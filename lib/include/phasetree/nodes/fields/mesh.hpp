@@ -15,9 +15,9 @@ namespace phasetree {
 /// The solid within a triangulated surface, exact on both sides; or a wall along the surface.
 ///
 /// A clean surface is used as it is: closed, all triangles facing outward, not crossing itself, and not touching itself
-/// along edges. Any other is repaired first (lib/src/nodes/mesh_repair): the result is the boundary of the points
-/// around which the surface winds, without whatever lies within the solid or encloses nothing. Either way, the nearest
-/// piece of the surface determines the sign of the distance (mesh_pieces.hpp).
+/// along edges. Any other is repaired first (lib/src/nodes/mesh_repair): the result is the boundary of the set of
+/// points around which the surface winds. Triangles inside that solid, and parts that enclose nothing, are dropped.
+/// Either way, the nearest piece of the surface determines the sign of the distance (mesh_pieces.hpp).
 ///
 /// Where two sheets of the surface are closer than the rounding of floats, either may be taken as the nearest, and the
 /// sign is uncertain even far from both.
@@ -53,8 +53,9 @@ struct Mesh {
               "needs {\"rotate\": {\"axis\": [1, 0, 0], \"angle\": 90, \"of\": …}}. Materials, colours, normals and "
               "texture coordinates of the file are ignored: the phases define the materials. Triangles are "
               "counter-clockwise seen from outside. Vertices that differ only by rounding are merged. Holes are "
-              "closed, parts that intersect are joined, and parts that are inside out are turned; only a mesh "
-              "that encloses nothing is rejected, unless it has a `thickness`. Walls and gaps thinner than a millionth "
+              "closed, parts that intersect are joined, and parts that are inside out are flipped. A surface that "
+              "encloses nothing is rejected unless it has a `thickness`; so are parts that coincide within rounding. "
+              "Walls and gaps thinner than a millionth "
               "of the mesh's size may "
               "be confused."});
         v(&Mesh::rule,
@@ -63,7 +64,7 @@ struct Mesh {
                            .description = "Which points are inside, by how often the surface winds around them: "
                                           "\"winding_number\": at least once, the union of all parts; \"even_odd\": an "
                                           "odd number of times, so a part within another is a cavity; \"non_zero\": "
-                                          "any number of times, in either direction. All three are the same for a "
+                                          "at least once, in either direction. All three are the same for a "
                                           "closed mesh whose parts do not overlap.",
                            .optional = true},
                           rules});
@@ -77,8 +78,9 @@ struct Mesh {
               limits::non_negative, true});
     }
     static std::vector<std::string_view> rules() { return {"winding_number", "even_odd", "non_zero"}; }
-    /// Throws ModelError if the numbers are bad, or if the surface encloses nothing and there is no thickness. Large
-    /// meshes take seconds; see PreparationWatch.
+    /// Throws ModelError if a coordinate or an index is invalid, if there are too many triangles, if parts cannot be
+    /// separated, or if the surface encloses nothing and there is no thickness. Large meshes take seconds; see
+    /// PreparationWatch.
     void prepare();
 
     std::size_t derived_bytes() const { return std::span(table).size_bytes() + std::span(corners).size_bytes(); }
@@ -97,7 +99,8 @@ struct Mesh {
     static const float* few_pieces(const float* data);
     static constexpr std::size_t max_pieces_in_shader = 2000;
 
-    /// See LocalDataPrimitive.
+    /// The same primitive with only the data that matter in a small box: what LocalPrimitive (model/concepts.hpp) is
+    /// for primitives without data.
     struct Specialised {
         std::vector<float> values{};
 

@@ -1,4 +1,4 @@
-// Traits of meshes that are defined outside mesh.hpp: how they are read, and how their values are enclosed in a box.
+// Traits of meshes, kept out of mesh.hpp: how they are read, and how their values are enclosed in a box.
 #pragma once
 
 #include "phasetree/model/from_file.hpp"

@@ -39,9 +39,10 @@ struct PolygonMirrors {
     }
 };
 
-/// The 15 mirrors of the regular icosahedron and dodecahedron: the coordinate planes, and the images under them of the
-/// plane perpendicular to n = (−φ, 1/φ, −1)/2. Between x = 0, z = 0 and that plane is a chamber of the group, whose
-/// edges are axes of order two (0, 1, 0), three (1/φ, φ, 0) and five (0, φ, 1).
+/// The 15 mirrors of the regular icosahedron and dodecahedron: the coordinate planes, and the twelve planes
+/// perpendicular to (±φ, ±1/φ, ±1)/2 and its cyclic permutations. One of them has the normal n = (−φ, 1/φ, −1)/2.
+/// Between x = 0, z = 0 and that plane is a chamber of the group, whose edges are axes of order two (0, 1, 0), three
+/// (1/φ, φ, 0) and five (0, φ, 1).
 ///
 /// Its three reflections s, applied in turn where the point is on the mirror's other side, reach the chamber: (s₁ s₂
 /// s₃)⁵ is the group's longest element. After the first three coordinate mirrors only a few of the 120 chambers are
@@ -57,10 +58,10 @@ struct IcosahedralMirrors {
             p = {p.x + beyond * (0.5f * golden), p.y - beyond * (0.5f / golden), p.z + beyond * 0.5f};
         }
     }
-    /// The distance to a solid with one face in the chamber, within a right triangle from the face's centre to the
-    /// middle of an edge to a corner. a is the height above the face's plane, b the distance beyond the edge's line, c
-    /// the distance beyond the corner, along the edge. In the chamber, b > 0 only where a > 0, and c > 0 only where b >
-    /// 0.
+    /// The distance to a solid with one face in the chamber. The part of the face in the chamber is a right triangle
+    /// with corners at the face's centre, at the middle of an edge and at an end of that edge. a is the height above
+    /// the face's plane, b the distance beyond the edge's line, c the distance beyond the corner, along the edge. In
+    /// the chamber, b > 0 only where a > 0, and c > 0 only where b > 0.
     template <class T>
     static T to_face(const T& a, const T& b, const T& c) {
         const T zero(0.f);

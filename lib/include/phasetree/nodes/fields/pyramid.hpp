@@ -14,8 +14,9 @@ namespace phasetree {
 struct Pyramid {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
-    static constexpr NodeInfo info{"pyramid", "", "± min(distance to the base, distance to the nearest slanted face)",
-                                   "A pyramid with a square base, centred at half its height on the z axis; exact."};
+    static constexpr NodeInfo info{
+        "pyramid", "", "± min(distance to the base, distance to the nearest slanted face)",
+        "A pyramid with a square base about the z axis, with the origin at half its height; exact."};
     float base = 1;
     float height = 1;
     float slant = 1;  ///< s, derived

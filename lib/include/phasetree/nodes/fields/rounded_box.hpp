@@ -9,7 +9,7 @@ struct RoundedBox {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"rounded_box", "", "box(s − 2r) − r",
-                                   "A box whose edges and corners are rounded, within the same size; exact."};
+                                   "A box with rounded edges and corners, without a change of size; exact."};
     glm::vec3 size{1};
     float radius = 0.1f;
 

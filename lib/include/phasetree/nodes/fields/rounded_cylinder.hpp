@@ -9,7 +9,7 @@ struct RoundedCylinder {
     static constexpr bool is_field_node = true;
     static constexpr bool is_convex = true;
     static constexpr NodeInfo info{"rounded_cylinder", "", "cylinder(r − e, h − 2e) − e",
-                                   "A cylinder whose rims are rounded, within the same size; exact."};
+                                   "A cylinder with rounded rims, without a change of size; exact."};
     float radius = 1;
     float height = 2;
     float edge = 0.1f;

@@ -13,10 +13,11 @@ namespace phasetree {
 /// reached at the origin. And |g| ≤ |(cos A, sin B)| ≤ √2.
 struct SchwarzD {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"schwarz_d", "",
-                                   "|sin x cos(y − z) + cos x sin(y + z)|/(√3 k) − t/2,  (x, y, z) = k p,  k = "
-                                   "2π/period",
-                                   "A wall along Schwarz' diamond surface, which fills space; a lower bound."};
+    static constexpr NodeInfo info{
+        "schwarz_d", "",
+        "|sin x cos(y − z) + cos x sin(y + z)|/(√3 k) − t/2,  (x, y, z) = k p,  k = "
+        "2π/period",
+        "A wall along Schwarz' diamond surface, repeated endlessly along all axes; a lower bound."};
     float period = 1;
     float thickness = 0.1f;
 

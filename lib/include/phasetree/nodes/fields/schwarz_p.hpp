@@ -7,9 +7,9 @@ namespace phasetree {
 /// g = cos x + cos y + cos z.  ‖∇g‖² = sin²x + sin²y + sin²z ≤ 3, reached where all three are π/2; |g| ≤ 3.
 struct SchwarzP {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"schwarz_p", "",
-                                   "|cos x + cos y + cos z|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period",
-                                   "A wall along Schwarz' primitive surface, which fills space; a lower bound."};
+    static constexpr NodeInfo info{
+        "schwarz_p", "", "|cos x + cos y + cos z|/(√3 k) − t/2,  (x, y, z) = k p,  k = 2π/period",
+        "A wall along Schwarz' primitive surface, repeated endlessly along all axes; a lower bound."};
     float period = 1;
     float thickness = 0.1f;
 

@@ -13,7 +13,8 @@ struct Shell {
     template <class V>
     static void parameters(V&& v) {
         v(&Shell::of, Parameter{"of", "", "The field."});
-        v(&Shell::half_thickness, Parameter{"half_thickness", "m", "Half of the wall, t.", limits::positive});
+        v(&Shell::half_thickness,
+          Parameter{"half_thickness", "m", "Half of the wall's thickness, t.", limits::positive});
     }
     template <class D>
     typename D::Scalar evaluate(D& d, const typename D::Point& p) const {

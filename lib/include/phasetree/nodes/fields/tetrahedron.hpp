@@ -18,7 +18,8 @@ struct Tetrahedron {
     static constexpr NodeInfo info{
         "tetrahedron", "",
         "fold to x ≥ y ≥ |z|;  m, or |(m, e, max(t − √2 k, 0))| "
-        "beyond the edge",
+        "beyond the edge,  m the height above the face's plane, e the distance beyond its edge, t along the edge, k = "
+        "radius/√3",
         "A regular tetrahedron about the origin, with corners on the space diagonals; exact."};
     float radius = 1;
 

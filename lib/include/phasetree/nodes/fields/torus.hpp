@@ -7,7 +7,8 @@ namespace phasetree {
 
 struct Torus {
     static constexpr bool is_field_node = true;
-    static constexpr NodeInfo info{"torus", "", "|(|pxy| − R, pz)| − r", "A ring about the z axis; exact."};
+    static constexpr NodeInfo info{"torus", "", "|(|pxy| − R, pz)| − r",
+                                   "A ring about the z axis; exact if the tube's radius is at most the ring's."};
     float major = 1;
     float minor = 0.25f;
 

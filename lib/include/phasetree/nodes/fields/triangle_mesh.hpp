@@ -8,7 +8,7 @@ namespace phasetree {
 
 /// Triangles in space, as read from a file. Corners are indices of vertices, counterclockwise as seen from outside.
 struct TriangleMesh {
-    /// Limit of readers and nodes.
+    /// The maximum that file readers and nodes accept.
     static constexpr std::size_t max_triangles = 2'000'000;
 
     std::vector<glm::vec3> vertices;

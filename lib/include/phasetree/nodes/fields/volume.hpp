@@ -13,7 +13,7 @@ namespace phasetree {
 /// A level set as stored by OpenVDB: signed distances at voxels, exact near the surface and constant beyond a narrow
 /// band. f is their trilinear interpolation, as in OpenVDB's BoxSampler, and λ is the maximum slope of f, or 1 if that
 /// is larger. The maximum is known exactly, because it is the slope at some voxel (VoxelGrid::steepest_linear). For
-/// samples of exact distances, λ is nearly 1 where the surface is smooth, and at most √3.
+/// samples of exact distances, λ is at most √3, and nearly 1 if the whole surface is smooth.
 ///
 /// Points outside the grid's box are projected onto it, which never increases distances, and the distance b to the box
 /// takes over where it is larger. So max(b, f/λ) is 1-Lipschitz, positive outside the box, and has the sign of f in it.
@@ -23,8 +23,8 @@ struct Volume {
     static constexpr NodeInfo info{
         "volume", "",
         "max(b, f/λ),  f the trilinear interpolation of the voxels, λ = max(1, sup |∇f|), b the grid's box",
-        "The solid of a level set in an OpenVDB file, in the position stored there. The field does not grow beyond the "
-        "file's narrow band."};
+        "The solid of a level set in an OpenVDB file, in the position stored there. Beyond the file's narrow band, the "
+        "field's values are constant."};
 
     /// The primitive f/λ.
     struct Samples {
@@ -52,7 +52,7 @@ struct Volume {
         v(&Volume::file,
           Parameter{"file", "",
                     "OpenVDB file. Its grid must be a level set of floats or doubles whose axes are aligned with those "
-                    "of space, in any order and direction. Lengths in it are metres."});
+                    "of space, in any order and direction. Its lengths are taken as lengths in the scene's unit."});
         v(&Volume::grid, Parameter{"grid", "",
                                    "Name of the grid; required if the file has several level sets. If several have the "
                                    "same name, append the index: \"name[0]\", \"name[1]\".",

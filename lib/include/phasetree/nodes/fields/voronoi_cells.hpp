@@ -45,7 +45,8 @@ struct VoronoiCells {
         detail::require_usable(info.name, {size});
         seed = std::floor(seed);
         if (!(gap < 1.8f * seen() * size))
-            throw ModelError("voronoi_cells: the gap must be less than a tenth of the size");
+            throw ModelError("voronoi_cells: the gap must be less than " + std::to_string(1.8f * seen() * size) +
+                             " at this size and jitter");
         if (!(gap > 1e-5f * size)) throw ModelError("voronoi_cells: the gap is too small");
         if (!(rounding <= size)) throw ModelError("voronoi_cells: the rounding must not be more than the size");
     }

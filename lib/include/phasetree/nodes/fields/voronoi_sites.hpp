@@ -15,9 +15,9 @@ namespace phasetree {
 /// One site per cube of a lattice, displaced from the cube's centre by up to half the jitter along each axis.
 /// Coordinates are in cubes. The hash repeats after 289 cubes.
 ///
-/// The sites of the 5³ cubes around a point's own cube are visited. The site of the own cube is within √3 (1 + j)/2 of
-/// the point. A site of any unvisited cube is at least (5 − j)/2 away, which is more for all j ≤ 1. So the nearest site
-/// is always found.
+/// The sites of the 5³ cubes centred on a point's own cube are visited. The site of the point's own cube is within √3
+/// (1 + j)/2 of the point. A site of any unvisited cube is at least (5 − j)/2 away, which is more for all j ≤ 1. So the
+/// nearest site is always found.
 struct VoronoiSites {
     float jitter = 1;
     float seed = 0;

@@ -29,16 +29,17 @@ struct VoxelLattice {
 /// every interpolation reads a single block. Blocks whose values are all equal are stored as one value. The table is
 /// the data of a program's instruction, so all code that reads it receives floats:
 ///
-///     the number of voxels, then of blocks, along x, y and z; the first voxel's centre; 1/spacing for each block, x
-///     fastest: its index among the stored blocks, or −1; its minimum and maximum, which are
-///         equal if all its values are
-///     the values of the stored blocks, x fastest, each with one layer of voxels before it
+///     the number of voxels, then of blocks, along x, y and z; the first voxel's centre; 1/spacing
+///     for each block, x fastest: its index among the stored blocks, or −1; its minimum and maximum, which are equal
+///         if all its values are
+///     the values of the stored blocks, x fastest, each with one layer of voxels around it
 ///
 /// Beyond its border voxels the grid continues with their values.
 struct VoxelGrid {
     static constexpr int block_side = 8, kept_side = 10;
     static constexpr std::size_t kept_values = 1000;
-    /// Limits of readers and nodes: the number of stored values (half a gigabyte), and of voxels along an axis.
+    /// The maxima that file readers and nodes accept: the number of stored values (half a gigabyte), and of voxels
+    /// along an axis.
     static constexpr std::size_t max_values = 120'000'000;
     static constexpr int max_along_axis = 8192;
 

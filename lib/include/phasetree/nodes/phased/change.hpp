@@ -10,7 +10,7 @@ namespace phasetree {
 struct Change {
     static constexpr bool is_phased_node = true;
     static constexpr NodeInfo info{"change", "5.2", "φᵢ = max(aᵢ, −f),  φₖ = min(aₖ, max(aᵢ, f)),  φ₀ = a₀",
-                                   "Turns one phase into another within a shape (everywhere without one)."};
+                                   "Turns one phase into another inside a shape, or everywhere if no shape is given."};
     Phased of{};
     Phase from{1};
     Phase to{2};

@@ -32,7 +32,8 @@ Phases<S> contact(const Phases<S>& a, const S& a_k, const Phases<S>& b, const S&
     return under(a, retreated);
 }
 inline constexpr Parameter contact_a{"a", "", "The object A."};
-inline constexpr Parameter contact_b{"b", "", "The object B, which replaces A where they are not in contact."};
+inline constexpr Parameter contact_b{"b", "",
+                                     "The object B, which replaces A where they overlap without being in contact."};
 inline constexpr Parameter contact_alpha{
     "alpha", "", "Where in the overlap they meet: 0 gives it all to B, 1 to A; at 1/2 both are equally deep in it.",
     limits::fraction};

@@ -4,7 +4,7 @@
 
 namespace phasetree {
 
-/// The other phases are replaced by vacuum, and the two are cut to the set S of points within ε of both.
+/// All phases but i and j are replaced by vacuum, and these two are cut to the set S of points within ε of both.
 ///
 /// I2 (φᵢ + φⱼ ≥ 0 for i ≠ j): φᵢ + φ₀ ≥ min(aᵢ + a₀, aᵢ + aₖ, S − S).
 struct Interface {

@@ -8,11 +8,10 @@ namespace phasetree {
 /// of Aₖ with S below the other phases: unite_shape_below.
 struct IntersectShape {
     static constexpr bool is_phased_node = true;
-    static constexpr NodeInfo info{
-        "intersect_shape", "5.1",
-        "φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, "
-        "else min(a₀, min over the cut k of max(aₖ, −f))",
-        "Keeps only what lies inside a shape: of all phases, or of some, leaving the others unchanged."};
+    static constexpr NodeInfo info{"intersect_shape", "5.1",
+                                   "φₖ = max(aₖ, f),  φ₀ = min(a₀, −f) if all phases are cut, "
+                                   "else min(a₀, min over the cut k of max(aₖ, −f))",
+                                   "Cuts all phases of an object, or only some of them, to the inside of a shape."};
     Phased of{};
     Field shape{};
     PhaseSet phases_cut{};

@@ -11,7 +11,7 @@ namespace phasetree {
 
 /// Integer labels at voxels, as in a segmented scan. The user of the grid maps labels to phases.
 struct LabelGrid {
-    /// Limits of readers and nodes: 512³ voxels, and 256 distinct labels, because indices are bytes.
+    /// The maxima that file readers and nodes accept: 512³ voxels, and 256 distinct labels, because indices are bytes.
     static constexpr std::size_t max_voxels = std::size_t{1} << 27, max_numbers = 256;
 
     VoxelLattice lattice{};

@@ -36,8 +36,8 @@ struct Labels {
         "φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = −σ N⁻¹(blurred share of phase k)/λ,  N the cumulative "
         "normal distribution, within the box of the voxels",
         "A segmented scan as an object of many phases: whole numbers at voxels, from images or OpenVDB. The centre of "
-        "each voxel has the phase of its number, and interfaces in between are smooth. Distances are known up to about "
-        "two voxels and do not grow beyond."};
+        "each voxel has the phase of its number, and interfaces in between are smooth. Distances are clamped to about "
+        "two voxels."};
 
     /// The primitive Dₖ.
     struct Depth {

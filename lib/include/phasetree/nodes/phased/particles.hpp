@@ -11,8 +11,9 @@ namespace phasetree {
 ///
 ///     φₖ = max(Dₖ, (Dₖ − min over m ≠ k of Dₘ)/2),    φ₀ = −min over k of Dₖ.
 ///
-/// The right-hand side is one operation of programs, nearer(a, b) = max(a, (a − b)/2), with b the minimum of the
-/// others. This allows a pruning rule: its sign needs both operands only where they are negative.
+/// φₖ is a single operation of the program, nearer(Dₖ, b) = max(Dₖ, (Dₖ − b)/2), with b the minimum of the other D.
+/// This allows a pruning rule: its sign depends on both values only where both are negative; elsewhere, it is that of
+/// the first.
 ///
 /// Both operands of the maximum are 1-Lipschitz because the D are. For i ≠ k, φᵢ + φₖ is at least the sum of the second
 /// operands, (Dᵢ − min over m ≠ i of Dₘ + Dₖ − min over m ≠ k of Dₘ)/2 ≥ (Dᵢ − Dₖ + Dₖ − Dᵢ)/2 = 0. And φ₀ + φₖ ≥ Dₖ −

@@ -8,8 +8,8 @@
 // aᵢ, and max(s, −min aᵢ) = s, because −aᵢ ≤ aₖ ≤ s.
 //
 // Aₖ − Bₖ is max(aₖ, −s), or equally max(aₖ, −s, −g − r): within Aₖ, s ≥ 0 requires g > −r, because the edge is rounded
-// nowhere else. The additional term prevents a zero of φ₀ where Aₖ meets itself far from the shape's surface, and gives
-// the sharp operator's max(aₖ, −g) as r → 0.
+// nowhere else. The additional term prevents a zero of φ₀ where two parts of Aₖ abut, so that aₖ is 0 inside it, far
+// from the shape's surface. It gives the sharp operator's max(aₖ, −g) as r → 0.
 //
 //     φ₀ = min(a₀, max(aₖ, −s, −g − r))
 //

@@ -9,7 +9,7 @@ struct SubtractShape {
     static constexpr NodeInfo info{"subtract_shape", "5.1",
                                    "φₖ = max(aₖ, −f),  φ₀ = min(a₀, f) if all phases are cut, "
                                    "else min(a₀, min over the cut k of max(aₖ, f))",
-                                   "Cuts a shape away: from all phases, or from some, leaving the others unchanged."};
+                                   "Cuts a shape out of all phases of an object, or out of only some of them."};
     Phased of{};
     Field shape{};
     PhaseSet phases_cut{};

@@ -18,7 +18,8 @@ struct ThinShell {
         v(&ThinShell::of, Parameter{"of", "", "The field, whose surface is the middle of the wall."});
         v(&ThinShell::shell, Parameter{"shell", "", "The phase of the wall."});
         v(&ThinShell::inside, Parameter{"inside", "", "The phase within."});
-        v(&ThinShell::half_thickness, Parameter{"half_thickness", "m", "Half of the wall, t.", limits::positive});
+        v(&ThinShell::half_thickness,
+          Parameter{"half_thickness", "m", "Half of the wall's thickness, t.", limits::positive});
     }
     void prepare() const {
         if (shell == inside) throw ModelError("thin_shell: the wall and the interior must be different phases");

@@ -17,7 +17,8 @@ struct Voronoi {
         "voronoi", "4.3, 9.1", "φₖ = (Dₖ − min over m ≠ k of Dₘ)/2,  Dₖ = distance to the nearest site of phase k",
         "Blocks of several phases, filling space: the cells of an irregular lattice of sites, each with one of the "
         "phases. With the same size, jitter and seed, the cells are those of voronoi_cells."};
-    /// The primitive for the distance to the nearest site of one kind.
+    /// The distance to the nearest site of one entry of `phases`: entry `kind` of `kinds`. (Two entries may be the same
+    /// phase.)
     struct Nearest {
         static constexpr bool is_long = true;               ///< a LongPrimitive
         static constexpr unsigned half_instructions = 800;  ///< for all sites

@@ -36,7 +36,7 @@ struct Bezier {
         if (points.size() > max_points) throw ModelError("bezier: more than 2048 points");
         const bool closed = points.size() % 2 == 0;
         if (points.size() < (closed ? 4u : 3u))
-            throw ModelError("bezier: fewer than three points, or four for a closed curve");
+            throw ModelError("bezier: an open curve needs at least three points, a closed one at least four");
         if (thickness == 0 && !closed)
             throw ModelError("bezier: an odd number of points is an open curve, which needs a thickness");
         for (const glm::vec2& v : points)

@@ -4,8 +4,8 @@
 
 namespace phasetree {
 
-/// The projection (x, y, z) ↦ (x, y, height). A field of the result is the field of the cross section at this height,
-/// extended along z.
+/// The projection (x, y, z) ↦ (x, y, height). A field that is evaluated at the result is its cross section at this
+/// height, extended along z.
 struct CrossSection {
     float height = 0;  ///< of the section
 

@@ -10,7 +10,7 @@
 namespace phasetree {
 
 /// An outline as a primitive with data: the number of pieces, half the thickness (0 for a filled outline), and the
-/// pieces (OutlinePieces). In a small box few pieces matter; see LocalDataPrimitive.
+/// pieces (OutlinePieces). In a small box, few pieces matter.
 ///
 /// Only a few pieces can be the nearest. Whether a point is inside depends on all pieces to its right; but of the
 /// pieces to the right of the whole box, only the heights of their ends matter. Pieces meet at their ends, so most of

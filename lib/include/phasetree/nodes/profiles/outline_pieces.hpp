@@ -114,7 +114,7 @@ class OutlinePieces {
         glm::vec2 at, gradient;
     };
     static Found find(const float* data, int count, bool is_line, const Vec3<float>& p, float sign);
-    /// The same as an equation around the point.
+    /// The first-order expansion of the distance around the point of find(): exact there, with its gradient.
     template <class T>
     static T distance_by(const Found& found, const Vec3<T>& p) {
         return found.distance + ((p.x - found.at.x) * found.gradient.x + (p.y - found.at.y) * found.gradient.y);

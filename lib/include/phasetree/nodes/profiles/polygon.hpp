@@ -38,7 +38,7 @@ struct Polygon {
             for (std::size_t j = i + 1; j < n; ++j)
                 if (cross_or_touch(i, j))
                     throw ModelError("polygon: the edges from its points " + std::to_string(i + 1) + " and " +
-                                     std::to_string(j + 1) + " cross or touch");
+                                     std::to_string(j + 1) + " (not counting repeated points) cross or touch");
         table = {0.f, 0.f};
         std::size_t pieces = 0;
         for (std::size_t i = 0; i < n; ++i) {

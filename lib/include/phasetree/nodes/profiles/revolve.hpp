@@ -21,8 +21,8 @@ struct Revolve {
     static constexpr bool is_field_node = true;
     static constexpr NodeInfo info{
         "revolve", "", "f(|pxy| − o, z, 0)",
-        "Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact where the field "
-        "is the exact distance to its cross-section, which must not cross the axis."};
+        "Revolves a field's cross-section at z = 0 about its y axis, which becomes the z axis; exact if the field is "
+        "the exact distance to its cross-section, and the section is on one side of the axis or symmetric about it."};
     using Parts = TypeList<IntoHalfPlane>;
     Field of{};
     float offset = 0;

@@ -57,6 +57,8 @@ Phases<float> object_guarded_by(float b, float margin, PhaseSet there, int k, co
 }
 
 inline constexpr Parameter guard_margin{
-    "margin", "m", "Distance from the volume beyond which the volume's distance is used instead.", limits::positive};
+    "margin", "m",
+    "Distance from the volume, or from the proxy's surface, beyond which its distance replaces that of the child.",
+    limits::positive};
 
 }  // namespace phasetree::detail

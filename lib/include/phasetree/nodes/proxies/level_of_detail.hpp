@@ -41,7 +41,8 @@ struct LevelOfDetail {
                                    "min(max(a, n), max(b, −n), max(a, b)),  n = |p − v| − d;  φᵢ and φ₀ alike",
                                    "Levels of detail of a field or an object, from fine to coarse, each used within a "
                                    "range of distances from a viewpoint. Without distances, the finest level is used "
-                                   "everywhere, unless a picture is rendered with --detail."};
+                                   "everywhere, unless distances are chosen for a view (`phasetree render --detail`; "
+                                   "in C++, with_levels_of_detail())."};
     std::vector<Child> of{};
     glm::vec3 viewpoint{0};
     std::vector<float> distances{};
@@ -58,8 +59,8 @@ struct LevelOfDetail {
                     limits::positive, true});
         v(&LevelOfDetail::errors,
           Parameter{"errors", "m",
-                    "Increasing distances between the surface of each coarser level and that of the finest, which "
-                    "--detail compares with the size of a pixel. They are trusted, not checked.",
+                    "For each coarser level, the distance of its surface from that of the finest level, in increasing "
+                    "order. --detail compares these with the size of a pixel. They are trusted, not checked.",
                     limits::positive, true});
     }
     void prepare() const {

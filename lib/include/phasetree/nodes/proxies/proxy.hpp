@@ -4,9 +4,10 @@
 
 namespace phasetree {
 
-/// Two bounding volumes (guard.hpp): {b < 0} with b = g − e contains the child's solid, and {−c < 0} with c = g + e
-/// contains its complement, everything but the proxy's core. If the child's surface lies between {g = −e} and {g = e},
-/// the zero set is the child's. Elsewhere, these two surfaces of the proxy cut it off or fill it.
+/// Two bounding volumes (guard.hpp): {b < 0} with b = g − e contains the child's solid; {−c < 0} with c = g + e, which
+/// is everything but the proxy's core, contains the complement of that solid. If the child's surface lies between {g =
+/// −e} and {g = e}, the zero set is the child's. Otherwise, parts of the child outside {g = e} are cut off, and gaps
+/// inside {g = −e} are filled.
 template <class Child>
 struct Proxy {
     static constexpr NodeInfo info{"proxy", "4.1, 7.3",
@@ -26,10 +27,11 @@ struct Proxy {
         v(&Proxy::proxy, Parameter{"proxy", "", "The simpler field, g."});
         v(&Proxy::error, Parameter{"error", "m", "Maximum distance e between the two surfaces.", limits::non_negative});
         v(&Proxy::margin, detail::guard_margin);
-        v(&Proxy::inside, Parameter{"inside", "",
-                                    "For an object: the phase that fills the proxy more than e inside. By default, the "
-                                    "proxy is used only outside.",
-                                    limits::any, true});
+        v(&Proxy::inside,
+          Parameter{"inside", "",
+                    "For an object: the phase that fills the part of the proxy deeper than e. By default, the "
+                    "proxy is used only outside.",
+                    limits::any, true});
     }
     void prepare() const {
         if (inside.size() > 1) throw ModelError("proxy: \"inside\" must be one phase");

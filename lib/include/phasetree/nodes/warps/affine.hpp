@@ -8,7 +8,8 @@
 
 namespace phasetree {
 
-/// J of ω⁻¹ is M⁻¹ everywhere, and λ is its spectral norm: the square root of the largest eigenvalue of M⁻ᵀM⁻¹.
+/// The Jacobian J of the inverse warp ω⁻¹ (warped.hpp) is M⁻¹ everywhere, and λ is its spectral norm: the square root
+/// of the largest eigenvalue of M⁻ᵀM⁻¹.
 struct Affine {
     static constexpr NodeInfo info{"affine", "6", "φ(M⁻¹(p − v))/λ,  M = (x y z),  λ = ‖M⁻¹‖₂",
                                    "Maps the unit vectors to any three vectors that span space, and the origin to a "

@@ -8,8 +8,8 @@
 namespace phasetree {
 
 /// The x axis becomes an arc of curvature k around (0, ·, 1/k); distances from the axis are preserved. With polar
-/// coordinates (r, θ) around that centre, in units of 1/k, ω⁻¹ is x = θ/k, z = (1 − r)/k. J is a rotation times
-/// diag(1/r, 1, 1), and λ = 1/r on the side facing the centre.
+/// coordinates (r, θ) around that centre, in units of 1/k, the inverse warp ω⁻¹ (warped.hpp) is x = θ/k, z = (1 − r)/k.
+/// Its Jacobian J is a rotation times diag(1/r, 1, 1), and λ = 1/r on the side facing the centre.
 ///
 /// The box around ω(A) extends nearer to the centre than ω(A) itself, up to the centre, where 1/r is unbounded. Within
 /// r < r₀, three quarters of the smallest r of ω(A), the map continues as x = (θ/k)(r/r₀), z = (1 − r₀)/k. There J has

@@ -40,9 +40,9 @@ struct Mirror {
     Bounds image(const Bounds& b) const {
         return unite(b, image_of(b, glm::mat3(1) - 2.f * glm::outerProduct(normal, normal)));
     }
-    /// The direction along which the child's support is the mirror's support along d. Of a kept point and its image,
-    /// the one on d's side of the plane is farther along d. So the direction is d or the mirror image of d, whichever
-    /// points into the kept half.
+    /// Returns the direction along which the child's support equals the mirrored object's support along d. Of a kept
+    /// point and its image, the one on d's side of the plane is farther along d. So the direction is d or the mirror
+    /// image of d, whichever points into the kept half.
     glm::dvec3 towards(const glm::dvec3& d) const {
         const glm::dvec3 n(normal);
         return d - 2 * std::min(glm::dot(d, n), 0.0) * n;

@@ -4,7 +4,8 @@
 
 namespace phasetree {
 
-/// J of ω⁻¹ is diag(1/s). Its norm is 1 over the smallest factor, everywhere.
+/// The Jacobian J of the inverse warp ω⁻¹ (warped.hpp) is diag(1/s). Its norm is 1 over the smallest factor,
+/// everywhere.
 struct Stretch {
     static constexpr NodeInfo info{"stretch", "6", "φ(x/sx, y/sy, z/sz) · min(sx, sy, sz)",
                                    "Scales by a different factor along each axis."};

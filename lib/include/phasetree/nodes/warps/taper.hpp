@@ -5,10 +5,10 @@
 
 namespace phasetree {
 
-/// ω scales the slice z = const by s = 1 + cz, so ω⁻¹(p) = (x/s, y/s, z). With ρ the distance from the axis *after*
-/// ω⁻¹, J is 1/s across, and ((1/s, −ρc/s), (0, 1)) in the plane of the axis. The norm of this matrix increases with
-/// each entry, and is √(n + √(n² − 4a²)) / √2 with n = a² + b² + 1, a = 1/s, b = ρ|c|/s. λ is its value at the smallest
-/// s and the largest ρ.
+/// The warp ω (warped.hpp) scales the slice z = const by s = 1 + cz, so ω⁻¹(p) = (x/s, y/s, z). With ρ the distance
+/// from the axis *after* ω⁻¹, the Jacobian of ω⁻¹ is 1/s across, and ((1/s, −ρc/s), (0, 1)) in the plane of the axis.
+/// The norm of this matrix increases with each entry, and is √(n + √(n² − 4a²)) / √2 with n = a² + b² + 1, a = 1/s, b =
+/// ρ|c|/s. λ is its value at the smallest s and the largest ρ.
 ///
 /// The box around ω(A) contains points that ω⁻¹ maps far beyond A. x/s and y/s are therefore clamped to A's bounds plus
 /// a quarter of A's size. This only shortens J, and bounds ρ.

@@ -133,8 +133,7 @@ struct WarpedField : Warped<Warp, Field> {
     static constexpr bool is_field_node = true;
 };
 /// Makes a warped object an object node. An object can be warped in part: W, the warped object of the chosen phases, is
-/// put over or under R, the unwarped rest. The equations of D(A, k) in the paper are the special case of one phase,
-/// over.
+/// put over or under R, the unwarped rest. The paper's D(A, k) is the special case of a single phase k in `over`.
 template <class Warp>
 struct WarpedPhased : Warped<Warp, Phased> {
     static constexpr bool is_phased_node = true;

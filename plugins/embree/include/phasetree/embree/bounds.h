@@ -39,21 +39,21 @@ static inline void phasetreeInitCarveOptions(PhasetreeCarveOptions* options) {
 
 /* Properties of carved bounds, besides the planes. */
 typedef struct PhasetreeCarvedBounds {
-    struct RTCBounds box; /* lower > upper if the phases have no points */
+    struct RTCBounds box; /* lower > upper if the phases are empty */
     float volume, area;   /* of the polyhedron; 0 if the phases are empty */
     size_t evaluations;   /* number of evaluations used */
     bool isWithinTolerance;
 } PhasetreeCarvedBounds;
 
 /* Carves a convex volume that is guaranteed to contain all of the given phases: a box, and planes that cut off its
- * corners and follow flat sides of the object. It evaluates only the tree's distances, at points ("Sphere Carving",
- * Schott et al. 2025).
+ * corners and follow flat sides of the object. It uses nothing but the tree's distances at sample points ("Sphere
+ * Carving", Schott et al. 2025).
  *
  * phases      the phases to enclose; PHASETREE_ALL_PHASES means all but the vacuum, which is always ignored. The tree
  *             must have at least one of them.
  * options     NULL for the defaults.
  * planes      receives up to options->maxPlanes planes, or NULL. The phases lie behind every plane.
- * planeCount  receives the number of planes, 0 if the phases have no points. May be NULL if planes is NULL.
+ * planeCount  receives the number of planes, 0 if the phases are empty. May be NULL if planes is NULL.
  * bounds      receives the other properties, or NULL.
  *
  * Runs on the calling thread. Slower than phasetreeGetTreeBounds: milliseconds if the tree's distances are exact, up to

@@ -47,9 +47,10 @@ typedef struct PhasetreeGeometryHandle* PhasetreeGeometry;
 /* Error codes. Call phasetreeGetErrorMessage to find out why a call failed. */
 typedef enum PhasetreeError {
     PHASETREE_ERROR_NONE = 0,
-    PHASETREE_ERROR_INVALID_HANDLE = 1,    /* NULL, freed, of the other kind, or not a handle */
-    PHASETREE_ERROR_INVALID_ARGUMENT = 2,  /* a value that the function's documentation excludes */
-    PHASETREE_ERROR_INVALID_TREE = 3,      /* an invalid scene; the message has file, line and column */
+    PHASETREE_ERROR_INVALID_HANDLE = 1,   /* NULL, freed, of the other kind, or not a handle */
+    PHASETREE_ERROR_INVALID_ARGUMENT = 2, /* a value that the function's documentation excludes */
+    PHASETREE_ERROR_INVALID_TREE = 3, /* an invalid scene (the message has file, line and column), or a tree that the
+                                         call cannot use, such as an unbounded one */
     PHASETREE_ERROR_INVALID_OPERATION = 4, /* not possible in this state, such as decoding a miss */
     PHASETREE_ERROR_VERSION = 5,           /* see PHASETREE_API_VERSION */
     PHASETREE_ERROR_CANCELLED = 6,         /* by a callback of the options, or by Embree's memory monitor */

@@ -26,7 +26,8 @@ typedef enum PhasetreeGeometryFlags {
     PHASETREE_GEOMETRY_FLAG_POINT_QUERY = 1 << 2,
     /* Makes each cell a primitive of the RTCGeometry. Cells are the boxes into which the object is divided (see
      * PhasetreeGeometryOptions.buildQuality). The BVH of the application's scene then contains the cells. Without this
-     * flag, the RTCGeometry has a single primitive, which traces rays in an inner scene. Hits are the same with both.
+     * flag, the RTCGeometry has a single primitive, which traces rays in an inner scene. Hits are the same with and
+     * without the flag.
      * With this flag, rays are up to a third faster, in packets or alone, whether or not they carry phases
      * (PhasetreeRay.carried). The restrictions are:
      *   - NO_FILTERS is required, because a filter function would see some crossings twice; POINT_QUERY is not allowed;
@@ -49,14 +50,15 @@ typedef struct PhasetreeGeometryOptions {
      * phasetreeGetGeometryWarning says why. */
     float resolution;
     /* RTCBuildQuality: how finely the object is divided into cells, the boxes in which rays search for interfaces. Each
-     * cell has a short program of instructions that evaluates the distances in it. LOW takes a quarter to three
-     * quarters of the build time and usually makes rays slower; use it for objects that are being edited. MEDIUM and
-     * HIGH are equal. Hits do not depend on the quality. */
+     * cell has a short program of instructions that evaluates the distances in it. LOW builds in a quarter to three
+     * quarters of the time of MEDIUM, but usually makes rays slower; use it for objects that are being edited. MEDIUM
+     * and HIGH are equal. Hits do not depend on the quality. */
     unsigned int buildQuality;
     unsigned int cellDivisions; /* maximum depth of the division into cells, at most 20; 0 for the default */
     /* Approximate memory limit in bytes for the cells, Embree's BVH over them, and building both. Cells become coarser
      * to stay below it, which makes rays slower but does not change hits. 0 selects 2 GiB, or a quarter of the memory
-     * available to the process if that is less. phasetreeGetGeometryStatistics returns the actual use. */
+     * available to the process if that is less. PhasetreeGeometryStatistics.bytes is the part that the
+     * cells and their programs use after the build. */
     size_t maxBytes;
     /* Phases to show. A crossing is skipped if neither of its two phases is in the set. The vacuum never counts as
      * shown. So a phase that is left out disappears, except where it touches a shown phase: there, the surface of the
@@ -193,7 +195,8 @@ PHASETREE_API PhasetreeError phasetreeSetGeometryShownPhases(PhasetreeGeometry g
  *                a turn apart, the matrix halfway between them has no inverse, and nothing is hit.
  * timeStepCount  1 … RTC_MAX_TIME_STEP_COUNT. 1 for a transform without motion; 0, with transforms NULL, to return to
  *                the tree's own space.
- * startTime, endTime   the times of the first and the last step, as times of rays: the shutter is open from 0 to 1.
+ * startTime, endTime   the times of the first and the last step, on the scale of RTCRay.time, where the
+ *                shutter is open from 0 to 1.
  *                endTime must be greater than startTime, and at least a millionth of [startTime, endTime] must lie in
  *                [0, 1]. Before startTime and after endTime, the object keeps its first or last transform, but Embree
  *                may hide it from rays then: see rtcSetGeometryTimeRange, which is called with startTime and endTime.

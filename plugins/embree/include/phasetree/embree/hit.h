@@ -71,9 +71,9 @@ typedef struct PhasetreeCarriedPhase {
 /* Per-ray input and output of a query with a PhasetreeRayContext. */
 typedef struct PhasetreeRay {
     /* In: the phases that the ray carries. A geometry that is not listed, or has PHASETREE_UNKNOWN_PHASE, uses the
-     * phase at the ray's start, as with an ordinary context. If a carried phase is wrong by more than rounding, the
-     * library reports a crossing from it to the real phase. This crossing is at the ray's start if that is in a cell,
-     * otherwise where the ray enters the next cell. Owned by the application; not modified. */
+     * phase at the ray's start, as with an ordinary context. If the ray starts deeper in another phase than rounding
+     * errors can explain, the library reports a crossing from it to the real phase. This crossing is at the ray's start
+     * if that is in a cell, otherwise where the ray enters the next cell. Owned by the application; not modified. */
     const PhasetreeCarriedPhase* carried;
     unsigned int carriedCount;
     /* Out: the crossing that belongs to the closest hit, if that hit is on a phasetree geometry. Its normal is in

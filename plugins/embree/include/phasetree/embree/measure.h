@@ -34,7 +34,8 @@ typedef struct PhasetreeBody {
 /* The measures of a phase. */
 typedef struct PhasetreeMeasuredPhase {
     PhasetreeBody body;
-    /* The sides of the smallest box around the phase. Infinite intervals if the phase may be empty. */
+    /* The phase's bounding box: its lowest and highest coordinates along x, y and z. Infinite intervals if the phase
+     * may be empty. */
     PhasetreeMeasured boxLow[3], boxHigh[3];
 } PhasetreeMeasuredPhase;
 
@@ -53,7 +54,7 @@ typedef struct PhasetreeMeasureOptions {
      * of the object's volume if that is more. Positive. */
     double tolerance;
     double seconds;  /* measuring ends after this time; HUGE_VAL for no limit. Positive */
-    size_t maxBoxes; /* measuring ends after about this many boxes */
+    size_t maxBoxes; /* measuring divides the object into boxes, and ends after about this many */
     /* A density for each of the tree's phases, the vacuum included, in units of mass per cubed unit of length; NaN for
      * a phase without one. NULL if no phase has one. The densities in a scene file are not used. */
     const double* densities;
@@ -92,7 +93,7 @@ PHASETREE_API PhasetreeError phasetreeMeasureTree(PhasetreeTree tree, const Phas
                                                   PhasetreeMeasuredPhase* phases, PhasetreeBody* all,
                                                   PhasetreeMeasureEnd* end);
 
-/* Kinds of statements. All of them require that each of their phases has points. */
+/* Kinds of statements. A statement about an empty phase is refuted. */
 typedef enum PhasetreeStatementKind {
     PHASETREE_STATEMENT_PRESENT = 0,       /* some point has this phase */
     PHASETREE_STATEMENT_CONNECTED = 1,     /* the phase is in one piece */
@@ -162,10 +163,11 @@ typedef struct PhasetreeProof {
 
 /* Options of phasetreeProveStatements. Initialise them with phasetreeInitProveOptions. */
 typedef struct PhasetreeProveOptions {
-    /* The side of the smallest boxes; smaller features stay undecided. 0 selects 1/256 of the longest side. */
+    /* The side of the smallest boxes; smaller features stay undecided. 0 selects 1/256 of the longest side
+     * of the object's bounds. */
     double resolution;
     double seconds;  /* time limit, after which open statements stay undecided; HUGE_VAL for none. Positive */
-    size_t maxBoxes; /* limit on the number of boxes of each subdivision; likewise */
+    size_t maxBoxes; /* maximum number of boxes of each subdivision; statements still open then stay undecided */
     /* Polled from any thread; return true to stop with the results so far. May be NULL. */
     bool (*cancelled)(void* userPtr);
     void* cancelledUserPtr;
@@ -190,8 +192,8 @@ static inline void phasetreeInitProveOptions(PhasetreeProveOptions* options) {
  * statements    `count` of them.
  * options       NULL for the defaults.
  * proofs        receives `count` proofs.
- * witnesses     receives the points that show the verdicts, up to witnessCapacity. May be NULL if that is 0. A path out
- *               of a vessel may have hundreds.
+ * witnesses     receives the points that show the verdicts, up to witnessCapacity. May be NULL if that is 0. The path
+ *               that refutes a CLOSED statement may have hundreds of points.
  * witnessCount  receives the number of all points, which may exceed witnessCapacity. May be NULL.
  *
  * PHASETREE_ERROR_INVALID_ARGUMENT  a statement is invalid, or an option out of its range. The message names the

@@ -64,8 +64,7 @@ PHASETREE_API PhasetreeError phasetreeGetPhaseN(PhasetreeGeometry geometry, cons
 
 /* Returns Φ at many points: the batched form of phasetreeGetDistances. Threads and points are as for
  * phasetreeGetPhaseN.
- *
- * phaseCount   evaluates the phases 0 … phaseCount − 1; 1 … PHASETREE_MAX_PHASES.
+ * phaseCount   the number of phases to evaluate, from phase 0 on: 1 … PHASETREE_MAX_PHASES.
  * distances    the distance of phase k at point i is written pointStride·i + phaseStride·k bytes after this address.
  *              Both strides are multiples of 4. If the distances of one point are adjacent: pointStride = 4·phaseCount,
  *              phaseStride = 4. If the distances of one phase are adjacent: pointStride = 4, phaseStride = 4·count.

@@ -13,20 +13,20 @@ extern "C" {
 /* All calls below use the threads of TBB's default arena; results do not depend on their number. The first call for a
  * tree prepares it. Points are arrays of 3 · count coordinates x, y, z, x, y, z, …, all of which must be finite. */
 
-/* Returns the phases at points: at each point, the phase with the smallest distance, computed in double precision. Of
- * several equal distances, that of the phase with the lowest index counts.
+/* Returns the phases at points: at each point, the phase with the smallest distance, computed in double precision. If
+ * several phases have the same distance, the one with the lowest index wins.
  *
  * phases  receives `count` phases.
- *
- * PHASETREE_ERROR_INVALID_ARGUMENT  a coordinate is not finite; the message names the point */
+ * PHASETREE_ERROR_INVALID_ARGUMENT  a coordinate is not finite; the message names the point
+ * PHASETREE_ERROR_INVALID_TREE      the tree has too many nodes to evaluate */
 PHASETREE_API PhasetreeError phasetreeLocate(PhasetreeTree tree, const double* points, size_t count,
                                              unsigned int* phases);
 
-/* Returns, for each point, a radius within which the phase certainly does not change; 0 at interfaces.
+/* Returns, for each point, a radius within which the phase is guaranteed not to change; 0 at interfaces.
  *
  * distances  receives `count` radii.
- *
- * Errors are those of phasetreeLocate. */
+ * Errors are those of phasetreeLocate, and PHASETREE_ERROR_INVALID_TREE if the tree is too far from the origin for its
+ * size. */
 PHASETREE_API PhasetreeError phasetreeGetSafeDistances(PhasetreeTree tree, const double* points, size_t count,
                                                        double* distances);
 
@@ -49,7 +49,8 @@ typedef struct PhasetreePreciseCrossing {
 } PhasetreePreciseCrossing;
 
 /* Finds the next crossing of each ray. A walk that restarts at pointTo and carries `to` repeats no crossing, and `to`
- * of each is `from` of the next. Phases thinner along the ray than the precise resolution may be missed.
+ * of each is `from` of the next. Phases that are thinner along the ray than the resolution of
+ * phasetree::PreciseTracer (usually 2⁻³⁰ of the object's diagonal) may be missed.
  *
  * crossings         receives `count` crossings.
  * cancelled         polled from any thread; return true to cancel. May be NULL.
@@ -57,7 +58,7 @@ typedef struct PhasetreePreciseCrossing {
  *
  * PHASETREE_ERROR_INVALID_ARGUMENT  a ray is not finite, has a zero direction or carries a phase that the tree does not
  *                                   have; the message names the ray
- * PHASETREE_ERROR_INVALID_TREE      the tree is empty or unbounded
+ * PHASETREE_ERROR_INVALID_TREE      the tree is empty or unbounded, or too far from the origin for its size
  * PHASETREE_ERROR_CANCELLED         cancelled returned true. Nothing is written */
 PHASETREE_API PhasetreeError phasetreeFindCrossings(PhasetreeTree tree, const PhasetreePreciseRay* rays, size_t count,
                                                     PhasetreePreciseCrossing* crossings,

@@ -17,8 +17,8 @@ typedef struct PhasetreeImageSink* PhasetreeImage;
  *          from 0 (low) to 1 (high). NULL if a size is 0 or above 32768, or if memory is exhausted. */
 PHASETREE_API float* phasetreeNewImageValues(PhasetreeImage image, unsigned int width, unsigned int height);
 
-/* Reads the height maps of a scene, because the library has no image readers of its own. Other images and OpenVDB files
- * cannot be read: a tree with a node `labels` or `volume` is rejected.
+/* Reads the height maps of a scene, because the library has no image readers of its own. It reads no other images,
+ * OpenVDB files or fonts: a tree with a `labels`, `volume` or `text` node is rejected.
  *
  * readImage is called on the calling thread, during the call that received the reader. The path is UTF-8 and relative
  * to the working directory, not to the scene. On success, readImage allocates the values with phasetreeNewImageValues,
@@ -77,9 +77,9 @@ PHASETREE_API PhasetreeError phasetreeGetTreePhaseByName(PhasetreeTree tree, con
  * C++.
  *
  * The library does not interpret materials: that is up to the application. The scene file reference
- * (scenes/reference) describes those of the path tracer. The string is valid as long as the tree. A tree made by
- * phasetreeNewEditedTree may have another one, because materials are part of the text that can be edited
- * ("/phases/glass"). */
+ * (scenes/reference) describes those of the path tracer. The string is valid as long as the tree. An edited tree
+ * (phasetreeNewEditedTree) may have a different material for this phase, because materials are part of the text that
+ * can be edited ("/phases/glass"). */
 PHASETREE_API PhasetreeError phasetreeGetTreePhaseMaterial(PhasetreeTree tree, unsigned int phase, const char** json);
 
 /* Returns a box around everything that is not vacuum. It is infinite in the directions in which the tree is unbounded.

@@ -1,4 +1,4 @@
-// Collects the findings of one path while it is traced, to train the next guide.
+// Collects the samples of one path while it is traced, to train the next guide.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace phasetree::tracer {
 
-class PathFindings {
+class PathGuideSamples {
   public:
     /// Reports that the path leaves a point of a surface in a direction that was not sampled from a delta lobe.
     /// `cosine_over_pdf` is the cosine there over the pdf of the direction, and `throughput` the luminance of the
@@ -23,13 +23,13 @@ class PathFindings {
     }
     /// Reports light of this luminance at the camera. It came through all points that the path has left.
     void add_light(float luminance) {
-        for (std::size_t i = 0; i < count_; ++i) points_[i].finding.light += luminance * points_[i].per_luminance;
+        for (std::size_t i = 0; i < count_; ++i) points_[i].sample.light += luminance * points_[i].per_luminance;
     }
-    /// Ends the path: appends its findings, and resets this object.
-    void take(std::vector<Finding>& findings) {
+    /// Ends the path: appends its samples, and resets this object.
+    void take(std::vector<GuideSample>& samples) {
         for (std::size_t i = 0; i < count_; ++i)
-            if (points_[i].finding.light > 0.0f && points_[i].finding.light < most_light)
-                findings.push_back(points_[i].finding);
+            if (points_[i].sample.light > 0.0f && points_[i].sample.light < most_light)
+                samples.push_back(points_[i].sample);
         count_ = 0;
     }
 
@@ -38,7 +38,7 @@ class PathFindings {
     static constexpr float most_light = 1e30f;
 
     struct Point {
-        Finding finding;
+        GuideSample sample;
         float per_luminance = 0;
     };
     std::array<Point, 16> points_{};  // further points of a longer path are ignored
