@@ -3,10 +3,12 @@
 import json
 import os
 import pathlib
+import struct
 import sys
 import threading
 import time
 import unittest
+import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
@@ -204,6 +206,29 @@ class Quick(unittest.TestCase):
                 self.assertEqual(edit(view, {"set": RADIUS, "to": str(0.4 + i / 100)}, strict=True)[0], 200)
             view.wait_for(lambda s: is_ready(s) and s["version"] > 0)
             self.assertLess(self.seconds(view) - begun, 4 * PATIENCE)
+
+    def test_a_step_does_not_read_images_again_unless_their_files_change(self):
+        def write_image(file, value, size=2048):
+            row = b"\0" + bytes((value, 64, 255 - value)) * size
+            chunk = lambda name, data: struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+            header = struct.pack(">IIBBBBB", size, size, 8, 2, 0, 0, 0)
+            file.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(row * size, 1)) + chunk(b"IEND", b""))
+
+        class WithImage(View):
+            def prepare(self):
+                write_image(self.file.with_name("paint.png"), 255)
+
+        with WithImage(SCENE.replace('"color": [0.6, 0.3, 0.1]', '"color": {"image": {"file": "paint.png"}}'), "--threads", "1") as view:
+            first = view.ready()
+            begun = self.seconds(view)
+            for i in range(16):
+                self.assertEqual(edit(view, {"set": "/camera/fov", "to": str(30.1 + i / 100)}, strict=True)[0], 200)
+            last = view.wait_for(lambda s: is_ready(s) and s["version"] > first.state["version"])
+            # Each reading of the image would take a quarter of a second.
+            self.assertLess(self.seconds(view) - begun, 1.6 * PATIENCE)
+            write_image(view.file.with_name("paint.png"), 0, 16)
+            changed = view.wait_for(lambda s: is_ready(s) and s["version"] > last.state["version"] + 3)
+            self.assertNotEqual(changed.pixels, last.pixels)
 
     def test_a_text_is_sent_once(self):
         with View() as view:

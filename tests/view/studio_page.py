@@ -57,6 +57,27 @@ class Studio(StudioCase):
             self.step(lambda: (self.browser.run("document.activeElement.blur()"), self.key("z", CONTROL)))
         self.assertEqual(self.file(), empty)
 
+    def test_a_whole_scene_replaces_an_empty_one_and_undo_brings_it_back(self):
+        empty = EMPTY.replace('"width": 480, "height": 360, "samples": 64', '"width": 96, "height": 72, "samples": 1')
+        self.open(empty)
+        self.click("#empty-scene")
+        self.until("document.querySelectorAll('.menu .item').length === 6")
+        self.menu("A jar of honey")
+        jar = pathlib.Path(__file__).parents[2] / "tracer/src/studio/starts/jar.json"
+        self.assertEqual(self.file(), jar.read_text(encoding="utf-8"))
+        self.step(lambda: self.click("#undo"))
+        self.assertEqual(self.file(), empty)
+
+    def test_phases_that_must_differ_are_exchanged(self):
+        self.open(GLASSES.replace('{"set": {"phase": "glass", "of": {"box": {"size": [0.5, 0.5, 0.5]}}}}',
+                                  '{"thin_shell": {"of": {"box": {"size": [0.5, 0.5, 0.5]}}, "shell": "wood", "inside": "glass", "half_thickness": 0.05}}'))
+        self.expected = "Failed to load resource"
+        self.click(self.row("Wood filled with glass"))
+        self.click("[data-parameter=shell] .choice")
+        self.menu("glass")
+        shell = self.tree()["over"][1]["thin_shell"]
+        self.assertEqual((shell["shell"], shell["inside"]), ("glass", "wood"))
+
     def test_every_kind_is_added_edited_and_removed(self):
         self.open(GLASSES)
         self.expected = "Failed to load resource"

@@ -214,6 +214,10 @@ ACTION = """async (seed) => {
     const {actions, scene, selection} = studio;
     for (let i = 0; i < 3; ++i) random(1);
     const parts = scene.entries.filter((e) => !e.isSection && e.pointer.startsWith("/tree"));
+    if (parts.length === 0) { // the object itself has been deleted
+      await actions.undo();
+      return scene.text;
+    }
     selection.set(random(4) === 0 ? [pick(parts).key, pick(parts).key] : [pick(parts).key]);
     const kinds = actions.catalogue.kinds.filter((k) => k.template && !k.template.includes("<file>") && ["field", "object", "light", "material"].includes(k.type));
     const {wraps} = await import("./recipes.js"), active = actions.active, large = scene.text.length > 5000;

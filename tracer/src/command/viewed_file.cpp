@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <utility>
 
 #include "command/load.hpp"
 #include "command/unplaced_report.hpp"
+#include "image/kept_images.hpp"
 #include "phasetree/io/kept_nodes.hpp"
 #include "phasetree/io/keys.hpp"
 #include "phasetree/model/poll_preparation.hpp"
@@ -15,6 +18,36 @@
 #include "volume/read_volume.hpp"
 
 namespace phasetree::tracer {
+
+// Keeps display transforms for later pictures, because reading OpenColorIO's configuration takes milliseconds.
+class KeptDisplays {
+  public:
+    // The display and the view of the command line.
+    KeptDisplays(std::optional<std::string> display, std::optional<std::string> view)
+        : display_(std::move(display)), view_(std::move(view)) {}
+
+    DisplayTransform get(const Document& document, const RenderSettings& settings, float exposure_ev) {
+        const std::lock_guard lock(mutex_);
+        const char* configuration = std::getenv("OCIO");
+        std::error_code error;  // such as that there is none
+        const Key key{settings.view, std::filesystem::last_write_time(configuration ? configuration : "", error)};
+        if (key != key_ || displays_.size() >= most) displays_.clear();
+        key_ = key;
+        const auto known = displays_.find(exposure_ev);
+        if (known != displays_.end()) return known->second;
+        const DisplayTransform made = display_of(document, settings, display_, view_, exposure_ev);
+        return displays_.emplace(exposure_ev, made).first->second;
+    }
+
+  private:
+    static constexpr std::size_t most = 16;
+    using Key = std::pair<std::optional<std::string>, std::filesystem::file_time_type>;
+
+    const std::optional<std::string> display_, view_;
+    std::mutex mutex_;
+    Key key_;
+    std::map<float, DisplayTransform> displays_;  // by exposure
+};
 
 namespace {
 
@@ -60,9 +93,11 @@ std::optional<view::TimeSpan> span_of_keys(const Document& document) {
 }
 
 view::ViewedScene read_viewed(const ViewedFile& file, const Document& in_file, const std::shared_ptr<KeptNodes>& kept,
+                              KeptImages* images, const std::shared_ptr<KeptDisplays>& displays,
                               view::WatchedFiles& files, const view::Reading& desired) {
     const view::NumberEdits& numbers = desired.numbers;
     kept->start();
+    const KeptImages::Use use(*images);
     const Document document = with_edits(file.scene, in_file, numbers).with_kept_nodes(kept);
     add_named_files(document, document.root(), files);
     NodePlaces places;
@@ -73,12 +108,10 @@ view::ViewedScene read_viewed(const ViewedFile& file, const Document& in_file, c
     make_one_tree(document, scene);
     scene.camera_moments.clear();  // The page moves the camera, and shows the moment when the shutter opens.
     // Report an unknown name now.
-    (void)display_of(document, scene.settings, file.display, file.view, {});
+    (void)displays->get(document, scene.settings, scene.settings.exposure_ev);
     const RenderSettings settings = scene.settings;
     return {std::move(scene),
-            [=, display = file.display, view = file.view](float exposure_ev) {
-                return display_of(document, settings, display, view, exposure_ev);
-            },
+            [=](float exposure_ev) { return displays->get(document, settings, exposure_ev); },
             in_file,
             numbers,
             view::numbers_of(in_file),
@@ -101,10 +134,12 @@ std::unique_lock<std::timed_mutex> locked(std::timed_mutex& mutex) {
 // session, which reads the same text next if the step is made.
 class SceneReadings {
   public:
+    explicit SceneReadings(std::shared_ptr<KeptDisplays> displays) : displays_(std::move(displays)) {}
+
     void check(const ViewedFile& file, const Document& document) {
         const std::unique_lock lock = locked(mutex_);
         Checked checked{document.text(), {}, {}};
-        checked.scene = read_viewed(file, document, kept_, checked.files, {});
+        checked.scene = read_viewed(file, document, kept_, &images_, displays_, checked.files, {});
         checked_ = std::move(checked);
     }
     view::ViewedScene read(const ViewedFile& file, const Document& document, view::WatchedFiles& files,
@@ -116,7 +151,7 @@ class SceneReadings {
             files = std::move(known->files);
             return std::move(*known->scene);
         }
-        return read_viewed(file, document, kept_, files, desired);
+        return read_viewed(file, document, kept_, &images_, displays_, files, desired);
     }
 
   private:
@@ -127,11 +162,13 @@ class SceneReadings {
     };
     std::timed_mutex mutex_;
     const std::shared_ptr<KeptNodes> kept_ = std::make_shared<KeptNodes>();
+    const std::shared_ptr<KeptDisplays> displays_;
+    KeptImages images_;
     std::optional<Checked> checked_;
 };
 
-std::shared_ptr<SceneReadings> ViewedFile::new_readings() {
-    return std::make_shared<SceneReadings>();
+std::shared_ptr<SceneReadings> ViewedFile::new_readings() const {
+    return std::make_shared<SceneReadings>(std::make_shared<KeptDisplays>(display, view));
 }
 
 std::unique_ptr<studio::EditedDocument> ViewedFile::document(bool saves) const {

@@ -26,7 +26,7 @@ struct ViewedFile {
     view::ReadScene reader(studio::EditedDocument& document) const;
 
   private:
-    static std::shared_ptr<SceneReadings> new_readings();
+    std::shared_ptr<SceneReadings> new_readings() const;
 };
 
 // Write the change into the document and its file, as a step that can be undone. Throw SceneError and OutputError.

@@ -6,6 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "image/kept_images.hpp"
+
 namespace phasetree::tracer::gltf {
 
 namespace {
@@ -51,9 +53,13 @@ std::optional<ReadImage> Images::read(const Item& texture, ImageMeaning meaning)
     if (!read.image) {
         const Item item = document_.element("images", *number, source);
         const std::string bytes = document_.image(item);
-        try {
-            read.image = std::make_shared<const TextureImage>(
+        const auto load = [&] {
+            return std::make_shared<const TextureImage>(
                 texture_image_in_memory(bytes, fmt::format("images[{}]", *number), meaning));
+        };
+        try {
+            KeptImages* kept = KeptImages::of_thread();
+            read.image = kept ? kept->get_embedded(bytes, meaning, load) : load();
         } catch (const std::runtime_error& e) {
             if (meaning == ImageMeaning::alpha) {
                 read.is_missing = true;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <stdexcept>
+#include <system_error>
 
+#include "image/kept_images.hpp"
 #include "image/read_image.hpp"
 #include "image/srgb.hpp"
 
@@ -15,6 +17,8 @@ namespace phasetree::tracer {
 namespace {
 
 constexpr float most = 65535.0f;
+
+thread_local KeptImages* images_of_thread = nullptr;
 
 std::uint16_t stored(float value) {
     // NaN becomes black.
@@ -107,9 +111,7 @@ class TakenImage {
     std::vector<std::array<std::uint16_t, 3>> pixels_;
 };
 
-}  // namespace
-
-std::shared_ptr<const TextureImage> load_texture_image(const std::filesystem::path& file, ImageMeaning meaning) {
+std::shared_ptr<const TextureImage> loaded(const std::filesystem::path& file, ImageMeaning meaning) {
     TakenImage taken(meaning);
     try {
         read_image(
@@ -121,12 +123,55 @@ std::shared_ptr<const TextureImage> load_texture_image(const std::filesystem::pa
     return std::make_shared<const TextureImage>(std::move(taken).image());
 }
 
+}  // namespace
+
+std::shared_ptr<const TextureImage> load_texture_image(const std::filesystem::path& file, ImageMeaning meaning) {
+    KeptImages* kept = KeptImages::of_thread();
+    return kept ? kept->get(file, meaning, [&] { return loaded(file, meaning); }) : loaded(file, meaning);
+}
+
 TextureImage texture_image_in_memory(std::string_view bytes, const std::string& name, ImageMeaning meaning) {
     TakenImage taken(meaning);
     read_image_in_memory(
         bytes, name, "texture image", [&](const ImageHeader& header) { return taken.begin(header); },
         [&](std::span<const float> values) { taken.add(values); });
     return std::move(taken).image();
+}
+
+KeptImages::Use::Use(KeptImages& images) : before_(std::exchange(images_of_thread, &images)) {}
+
+KeptImages::Use::~Use() {
+    images_of_thread = before_;
+}
+
+KeptImages* KeptImages::of_thread() {
+    return images_of_thread;
+}
+
+// Of a file that cannot be read, the state is arbitrary: loading it throws.
+KeptImages::State KeptImages::state_of(const std::filesystem::path& file) {
+    std::error_code error;
+    return {std::filesystem::last_write_time(file, error), std::filesystem::file_size(file, error)};
+}
+
+std::shared_ptr<const TextureImage> KeptImages::get(const std::filesystem::path& file, ImageMeaning meaning,
+                                                    const Load& load) {
+    return get(std::pair(file.string(), meaning), state_of(file), load);
+}
+
+std::shared_ptr<const TextureImage> KeptImages::get_embedded(const std::string& bytes, ImageMeaning meaning,
+                                                             const Load& load) {
+    return get(std::pair(bytes, meaning), State{}, load);
+}
+
+std::shared_ptr<const TextureImage> KeptImages::get(const std::pair<std::string, ImageMeaning>& key, const State& state,
+                                                    const Load& load) {
+    if (const auto known = images_.find(key); known != images_.end() && known->second.state == state)
+        if (std::shared_ptr<const TextureImage> image = known->second.image.lock()) return image;
+    std::shared_ptr<const TextureImage> image = load();
+    std::erase_if(images_, [](const auto& kept) { return kept.second.image.expired(); });
+    images_[key] = {state, image};
+    return image;
 }
 
 }  // namespace phasetree::tracer

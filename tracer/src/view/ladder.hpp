@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <vector>
@@ -11,11 +12,12 @@ namespace phasetree::tracer::view {
 
 class Ladder {
   public:
-    /// For each picture, how many times coarser it is per side than the whole picture, from the coarsest to 1.
-    std::vector<int> scales(const glm::ivec2& resolution) const {
+    /// For each picture, how many times coarser it is per side than the whole picture, from the coarsest to 1. The
+    /// first one is meant to be complete `goal` seconds after the change, of which `elapsed` have passed.
+    std::vector<int> scales(const glm::ivec2& resolution, double elapsed) const {
         const double pixels = static_cast<double>(resolution.x) * resolution.y;
-        int coarsest = 1;
-        while (coarsest < most && pixels / (coarsest * coarsest) > most_seconds * pixels_a_second_) coarsest *= 2;
+        const double affordable = std::max(least_seconds, goal - elapsed) * pixels_a_second_;
+        const int coarsest = static_cast<int>(std::clamp(std::ceil(std::sqrt(pixels / affordable)), 1.0, most));
         std::vector<int> result;
         for (int scale = coarsest; scale > 1; scale /= 4) result.push_back(scale);
         result.push_back(1);
@@ -27,8 +29,9 @@ class Ladder {
     }
 
   private:
-    static constexpr int most = 32;
-    static constexpr double most_seconds = 0.06;  // for the first picture
+    static constexpr double most = 32;
+    static constexpr double goal = 0.05;
+    static constexpr double least_seconds = 0.02;  // so that something can be recognised
 
     double pixels_a_second_ = 100'000;  // that of a slow scene, until measured
 };

@@ -52,7 +52,8 @@ bool Session::draw(const DesiredState& desired) {
         shown.warning = warning_ + warning_of_camera();
         shown.doing = "Rendering";
     });
-    for (const int scale : ladder_.scales(file.film.resolution()))
+    const double elapsed = std::chrono::duration<double>(drawing_since_ - desired.since).count();
+    for (const int scale : ladder_.scales(file.film.resolution(), elapsed))
         if (scale > 1 && !draw_coarser(desired, scale)) return false;
     if (prepared_->is_first_look()) {
         // If the scene is fast, the ladder had no coarser pictures, and nothing has been shown yet. Show something

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "output/error.hpp"
 #include "studio/catalogue.hpp"
 #include "studio/messages.hpp"
+#include "studio/starts.hpp"
 
 namespace phasetree::tracer::view {
 
@@ -14,6 +16,14 @@ namespace {
 
 constexpr const char* type_of_answers = "application/json";
 constexpr std::string_view pictures_path = "pictures/";
+
+// The scenes of `phasetree new`.
+std::string written_starts() {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const studio::StartFile& start : studio::start_files())
+        json.push_back({{"name", start.stem()}, {"summary", start.summary()}, {"text", start.text}});
+    return json.dump();
+}
 
 void refuse(httplib::Response& response, int status, const SceneError& error, const std::string& file) {
     response.status = status;
@@ -32,7 +42,7 @@ bool StudioAnswers::is_posted(std::string_view name) {
 }
 
 bool StudioAnswers::is_answered(std::string_view name) {
-    return name == "document" || name == "catalogue" || name.starts_with(pictures_path);
+    return name == "document" || name == "catalogue" || name == "starts" || name.starts_with(pictures_path);
 }
 
 bool StudioAnswers::get(std::string_view name, Known known, std::chrono::milliseconds timeout,
@@ -44,6 +54,10 @@ bool StudioAnswers::get(std::string_view name, Known known, std::chrono::millise
     }
     if (name == "catalogue") {
         response.set_content(catalogue_, type_of_answers);
+        return true;
+    }
+    if (name == "starts") {
+        response.set_content(written_starts(), type_of_answers);
         return true;
     }
     if (!pictures_) return false;

@@ -10,7 +10,8 @@ import {nameOf} from "./names.js";
 import {choose} from "./palette.js";
 import {joined} from "./pointer.js";
 import {materials, wraps} from "./recipes.js";
-import {shortMessage} from "./server.js";
+import {ballOf} from "./swatch.js";
+import {askStarts, shortMessage} from "./server.js";
 import {filledTo, ownCopy, shapeKinds, shapeOfSeveral, stacked, wrappedTogether} from "./several.js";
 import {indexOf, isInList, isNode, isSection, listLength, listOf, mayStandAt} from "./structure.js";
 
@@ -96,6 +97,17 @@ export class Actions {
     const step = (some) => addedKind(this.#scene, some, active, this.phases);
     return this.run(step(kind), {otherwise: (error) => (isNode(kind) && /unbounded/.test(error.message) ? step(boxed(kind)) : null)});
   }
+  // Replaces everything by a scene to start from; undo brings the old one back.
+  async startWith(button) {
+    try {
+      const items = (await askStarts()).map(({name, summary, text}) => ({
+        text: summary, icon: "scene", run: () => this.run({label: `Start with ${name}`, operations: [{text}], select: ["/tree"]}),
+      }));
+      openMenu(button, items, {label: "Replace everything by"});
+    } catch (error) {
+      this.#announcer.say(shortMessage(error), {isWrong: true});
+    }
+  }
   async add() {
     const kinds = this.catalogue.kinds.filter((kind) => kind.template && ["field", "object", "light", "mesh", "material", "camera", "statement"].includes(kind.type) && !kind.for_meshes_only);
     const kind = await this.#chosen("Add", [...shapeKinds(this.#scene), ...withoutTwins(kinds, this.active)]);
@@ -121,7 +133,7 @@ export class Actions {
     // Before there is an object, phases alone are no valid scene.
     const strict = this.#scene.entry("/tree") !== null;
     const add = (name, value) => this.run(addedPhase(this.#scene, freeName(name, keysAt(this.#scene.text, "/phases")), value), {strict});
-    openMenu(button, [...materials.map((m) => ({text: m.text, icon: "material", run: () => add(m.name, m.value)})), null,
+    openMenu(button, [...materials.map((m) => ({text: m.text, swatch: ballOf(m), run: () => add(m.name, m.value)})), null,
       {text: "Other materials …", icon: "search", run: async () => {
         const kind = await this.#chosen("New material", this.catalogue.kinds.filter((k) => k.type === "material" && !k.for_meshes_only));
         if (kind) await add(kind.kind, templateOf(kind, this.phases));

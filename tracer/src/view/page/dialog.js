@@ -9,8 +9,11 @@ export function openDialog(title, className, built) {
   dialog.append(make("header", {}, make("h2", {}, title),
     make("button", {type: "button", class: "icon-button", "aria-label": "Close", title: "Close (Esc)", onclick: close}, icon("close"))));
   dialog.append(...[built(close)].flat());
+  // A drag that begins inside, such as one that selects text, may end beside the dialog.
+  let isBeside = false;
+  dialog.addEventListener("pointerdown", (event) => { isBeside = event.target === dialog; });
   dialog.addEventListener("click", (event) => {
-    if (event.target === dialog) close();
+    if (event.target === dialog && isBeside) close();
   });
   dialog.addEventListener("close", () => dialog.remove());
   dialog.addEventListener("keydown", (event) => event.stopPropagation());

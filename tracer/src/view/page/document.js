@@ -2,6 +2,7 @@
 // same scene follows it, so that all see the same.
 import {isListAt, textAt} from "./json_text.js";
 import {joined} from "./pointer.js";
+import {whenReleased} from "./press.js";
 import {Rejected, askDocument, pause, redo, save, sendStep, undo} from "./server.js";
 
 const sections = ["tree", "objects", "shapes", "phases", "lights", "meshes", "camera", "render", "groups", "instances", "expect", ""];
@@ -75,12 +76,15 @@ export class SceneDocument extends EventTarget {
   get isBusy() {
     return this.#running > 0 || this.#waiting.length > 0;
   }
+  async whenIdle() {
+    while (this.isBusy) await pause(5);
+  }
   async follow(lost) {
     let failures = 0;
     while (true) {
       try {
         const before = this.version;
-        this.#take(await (this.#isFollowed ? askDocument(before, this.#textVersion) : askDocument(0, 0)));
+        await this.#takeNext(this.#isFollowed ? askDocument(before, this.#textVersion) : askDocument(0, 0));
         // Nothing has happened for seconds, or too many pages wait.
         if (this.version === before) await Promise.race([pause(200), new Promise((done) => (this.#wake = done))]);
         failures = 0;
@@ -92,6 +96,11 @@ export class SceneDocument extends EventTarget {
         await pause(1000);
       }
     }
+  }
+  async #takeNext(answer) {
+    const told = await answer;
+    await whenReleased();
+    this.#take(told);
   }
   #take(told) {
     if (told.version <= this.version && this.#isFollowed) return;
@@ -117,12 +126,12 @@ export class SceneDocument extends EventTarget {
     }
     this.dispatchEvent(new CustomEvent("change", {detail: {isFirst, isOwn}}));
   }
-  // Sends a step and resolves when the page shows it. A step that waits is replaced by a later one of the same gesture,
+  // Sends a step and resolves when the page shows it. `base` is the version that it changes, if it is not the present one. A step that waits is replaced by a later one of the same gesture,
   // so that a fast mouse does not build up a queue; `merge` names the gesture.
-  perform({label, operations, merge = null, strict = true}) {
+  perform({label, operations, base = null, merge = null, strict = true}) {
     return new Promise((done, failed) => {
       const last = this.#waiting.at(-1);
-      const step = {label, operations, merge, strict, done: [done], failed: [failed]};
+      const step = {label, operations, base, merge, strict, done: [done], failed: [failed]};
       if (last && merge !== null && last.merge === merge) {
         step.done.push(...last.done);
         step.failed.push(...last.failed);
@@ -137,7 +146,7 @@ export class SceneDocument extends EventTarget {
     this.#isSending = true;
     while (this.#waiting.length > 0) {
       const {done, failed, ...step} = this.#waiting.shift();
-      await this.#run(() => sendStep({base: this.version, ...step}), done, failed);
+      await this.#run(() => sendStep({...step, base: step.base ?? this.version}), done, failed);
     }
     this.#isSending = false;
   }
@@ -149,7 +158,7 @@ export class SceneDocument extends EventTarget {
       await this.#reach(version);
       for (const tell of done) tell(version);
     } catch (error) {
-      if (error instanceof Rejected && error.isOutdated) this.#take(await askDocument(0, this.#textVersion).catch(() => this));
+      if (error instanceof Rejected && error.isOutdated) await this.#takeNext(askDocument(0, this.#textVersion).catch(() => this));
       for (const tell of failed) tell(error);
     } finally {
       this.#running -= 1;
@@ -164,7 +173,7 @@ export class SceneDocument extends EventTarget {
         this.addEventListener("change", done, {once: true});
         setTimeout(done, end - performance.now());
       });
-    if (this.version < version) this.#take(await askDocument(0, this.#textVersion));
+    if (this.version < version) await this.#takeNext(askDocument(0, this.#textVersion));
   }
   goBack() {
     return new Promise((done, failed) => this.#run(undo, [done], [failed]));

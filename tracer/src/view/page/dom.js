@@ -25,6 +25,33 @@ export function makeSvg(tag, members = {}, ...children) {
   return element;
 }
 
+const looks = new WeakMap(); // of what refill() has filled
+const focusable = "button, input, textarea, select, summary, [tabindex]";
+
+// Fills an element, unless its look is the same as the last time: elements that stay keep the focus and what is typed. If
+// they are replaced, the focus goes to the element with the same label, or at the same place.
+export function refill(parent, look, built) {
+  if (looks.get(parent) === look) return;
+  looks.set(parent, look);
+  const labelOf = (element) => element.dataset.action ?? element.getAttribute("aria-label") ?? element.textContent;
+  const isText = parent.contains(document.activeElement) && isTyping(document.activeElement);
+  if (isText) document.activeElement.blur(); // which takes over what has been typed
+  const old = [...parent.querySelectorAll(focusable)], at = old.indexOf(document.activeElement), label = at < 0 ? null : labelOf(old[at]);
+  parent.replaceChildren(...built());
+  if (at < 0) return;
+  const next = [...parent.querySelectorAll(focusable)];
+  (next.find((element) => labelOf(element) === label) ?? next[Math.min(at, next.length - 1)])?.focus();
+}
+
+// Makes elements the children of a parent. Those that are its children already stay where they are if their order allows it,
+// because an element that is moved loses the focus.
+export function arrange(parent, elements) {
+  for (const child of [...parent.children]) if (!elements.includes(child)) child.remove();
+  elements.forEach((element, i) => {
+    if (parent.children[i] !== element) parent.insertBefore(element, parent.children[i] ?? null);
+  });
+}
+
 let lastId = 0;
 export const newId = (prefix) => `${prefix}-${++lastId}`;
 

@@ -3,10 +3,22 @@
 import {newId} from "./dom.js";
 import {GrabPanel} from "./grab_panel.js";
 import {place} from "./picture.js";
-import {dragTo, grabAt, shortMessage} from "./server.js";
+import {dragTo, grabAt, pause, shortMessage} from "./server.js";
 
 const tolerated = 4;   // pixels that a click may move
 const keyStep = 0.01;  // of the picture's height, for an arrow key
+
+// The picture may still be that of the scene before the last change.
+async function grabbedAt(x, y) {
+  for (let attempts = 5; ; --attempts) {
+    try {
+      return await grabAt(x, y);
+    } catch (error) {
+      if (attempts === 0 || !error.message.includes("before the last change")) throw error;
+      await pause(200);
+    }
+  }
+}
 
 export class Grab {
   #canvas;
@@ -124,7 +136,7 @@ export class Grab {
     this.release();
     this.#isBusy = true;
     try {
-      const told = await grabAt(...at);
+      const told = await grabbedAt(...at);
       const pointers = told.influences.map((one) => one.pointer);
       const values = Object.fromEntries(told.influences.map((one) => [one.pointer, one.value]));
       this.#point = {...told, at, merge: newId("grab"), first: values, values, pointers, follows: true, text: this.#scene.text};

@@ -75,7 +75,7 @@ export function follow(press, {moved, ended, clicked}) {
   return true;
 }
 
-// Numbers to type, beside a handle. `changed(value, gesture)` gets a number, or several.
+// Numbers to type, beside a handle; returns their field. `changed(value, gesture)` gets a number, or several.
 export function typeNumbers(grip, {title, value, least, unit, scale}, changed) {
   const options = {label: title, low: least, unit, scale};
   const field = Array.isArray(value) ? new VectorField({...options, names: ["x", "y", "z"].slice(0, value.length)}, changed) : new NumberField(options, changed);
@@ -87,5 +87,5 @@ export function typeNumbers(grip, {title, value, least, unit, scale}, changed) {
   closeWith(popup, grip);
   openBeside(popup, grip);
   popup.querySelector("input").focus();
-  return popup;
+  return field;
 }

@@ -75,17 +75,28 @@ export class Handles {
     group.addEventListener("pointerdown", (event) => this.#run(event, handle, say));
     return group;
   }
-  // Follows the pointer. A step is made only after the one before it has been accepted, because the first may wrap what
-  // the others change.
+  // Follows the pointer.
   #run(event, handle, say) {
-    const merge = newId("handle"), send = this.#sender(handle, merge);
+    const merge = newId("handle");
+    let send = null, last = null;
+    const aim = () => {
+      if (!send || !last) return;
+      const value = handle.valueAt(...last);
+      if (value === null) return;
+      say(value);
+      send(value);
+    };
+    // The number from which the drag starts is known once the steps of the drag before are in the scene.
+    const begin = async () => {
+      handle = await this.#present(handle);
+      send = this.#sender(handle, merge);
+      aim();
+    };
     const hasBegun = follow(event, {
       moved: (by, now) => {
         this.#follow();
-        const value = handle.valueAt(by, now);
-        if (value === null) return;
-        say(value);
-        send(value);
+        last = [by, now];
+        aim();
       },
       ended: () => {
         this.#drag = null;
@@ -93,8 +104,17 @@ export class Handles {
       },
       clicked: () => this.#type(handle, merge),
     });
-    if (hasBegun) this.#drag = {grip: event.currentTarget, camera: this.#view.camera()};
+    if (!hasBegun) return;
+    this.#drag = {grip: event.currentTarget, camera: this.#view.camera()};
+    begin();
   }
+  // A handle as it is after the steps that are on their way.
+  async #present(handle) {
+    if (!this.#scene.isBusy) return handle;
+    await this.#scene.whenIdle();
+    return this.#handles().find(({name}) => name === handle.name) ?? handle;
+  }
+  // A step is made only after the one before it has been accepted, because the first may wrap what the others change.
   #sender(handle, merge) {
     let next = null, isBusy = false;
     const send = async () => {
@@ -112,9 +132,15 @@ export class Handles {
     };
   }
   #type(handle, merge) {
-    const grip = [...this.#svg.children].find((part) => part.dataset.handle === handle.name) ?? this.#svg, send = this.#sender(handle, merge);
-    typeNumbers(grip, {title: titleOf(handle.name), value: handle.value, least: handle.least, unit: handle.unit, scale: Math.abs([handle.value].flat()[0]) || 1},
+    const grip = [...this.#svg.children].find((part) => part.dataset.handle === handle.name) ?? this.#svg;
+    let send = this.#sender(handle, merge);
+    const field = typeNumbers(grip, {title: titleOf(handle.name), value: handle.value, least: handle.least, unit: handle.unit, scale: Math.abs([handle.value].flat()[0]) || 1},
       (value, gesture) => send(value, gesture ?? merge));
+    this.#present(handle).then((now) => {
+      if (now === handle) return;
+      send = this.#sender(now, merge);
+      field.show(now.value);
+    });
   }
   // While one is dragged, the others are hidden: where they belong is known again at the end.
   #follow() {

@@ -2,23 +2,22 @@
 // one.
 import {plainText, summaryOf} from "./catalogue.js";
 import {combiningFigure, isCombining} from "./combining.js";
-import {make} from "./dom.js";
+import {arrange, make, refill} from "./dom.js";
 import {icon, iconOf} from "./icons.js";
 import {isPlacing, nameOf} from "./names.js";
 import {ParameterRow, titleOf} from "./parameter_row.js";
 import {joined} from "./pointer.js";
 import {shortMessage} from "./server.js";
 import {chainOf, isNode, isSection, membersOf, pathTo, pointerOf} from "./structure.js";
-import {swatchOf} from "./swatch.js";
+import {lookOf, swatchOf} from "./swatch.js";
 
 const mostAtOnce = 9; // parameters shown before the rest is folded
 
 class Section {
   rows = [];
 
-  constructor(entry, kind, inspector, isFirst) {
-    this.pointer = entry.pointer;
-    this.kind = entry.kind;
+  constructor(look, entry, kind, inspector, isFirst) {
+    this.look = look;
     const {catalogue, context} = inspector;
     const title = isPlacing(entry) ? nameOf(entry, catalogue) : kind?.title ?? nameOf(entry, catalogue);
     this.element = make("section", {class: "node", "aria-label": title});
@@ -50,7 +49,7 @@ class Section {
     }
     const own = new Set((inspector.catalogue.of(entry)?.slots ?? []).map((slot) => slot.name));
     const slots = isLast ? entry.slots.filter((slot) => own.has(slot.name) || filled.has(slot.name)) : [];
-    this.slots.replaceChildren(...slots.flatMap((slot) => inspector.slotRows(entry, slot)));
+    refill(this.slots, JSON.stringify(slots.map((slot) => inspector.lookOfSlot(entry, slot))), () => slots.flatMap((slot) => inspector.slotRows(entry.key, slot)));
   }
 }
 
@@ -58,8 +57,8 @@ export class Inspector {
   #elements;
   #scene;
   #selection;
-  #sections = [];
-  #signature = "";
+  #sections = []; // of the last node that was shown
+  other = make("div", {class: "other"});
 
   // `elements` are those of the panel: head, body. `act` has the actions that the buttons at the top offer, and rename.
   constructor(elements, {scene, selection, act, radius, failed}) {
@@ -75,7 +74,7 @@ export class Inspector {
         label: `Change ${titleOf(name).toLowerCase()} of ${nameOf(entry, this.catalogue).toLowerCase()}`,
         merge: gesture,
         operations: [{set: index === undefined ? pointerOf(entry, name) : joined(pointerOf(entry, name), index), to: text}],
-      }),
+      }, this.#exchange(entry, name, text, row)),
       fill: (entry, slot) => act.addTo(entry, {...slot, pointer: joined(membersOf(entry), slot.name)}),
       reset: (entry, name, row) => this.#perform(row, {
         label: `Reset ${titleOf(name).toLowerCase()}`,
@@ -85,13 +84,23 @@ export class Inspector {
     this.failed = failed;
     selection.addEventListener("change", () => this.show());
   }
-  async #perform(row, step) {
+  // If two parameters must be different phases, choosing the other one's phase exchanges them.
+  #exchange(entry, name, text, row) {
+    const specs = this.catalogue.of(entry)?.parameters ?? [], old = entry.parameters[name]?.text;
+    const isPhase = (other) => specs.find((spec) => spec.name === other)?.control === "phase";
+    const twin = row.spec.control === "phase" && old ? Object.keys(entry.parameters).find((other) => other !== name && isPhase(other) && entry.parameters[other].text === text) : null;
+    return twin ? [{set: pointerOf(entry, twin), to: old}] : null;
+  }
+  async #perform(row, step, exchange = null) {
     try {
       await this.#scene.perform(step);
       row.fail("");
+      return true;
     } catch (error) {
+      if (exchange && !error.isOutdated) return this.#perform(row, {...step, operations: [...step.operations, ...exchange]});
       row.fail(shortMessage(error));
       this.failed(error);
+      return false;
     }
   }
   use(catalogue) {
@@ -106,47 +115,58 @@ export class Inspector {
     if (!this.catalogue) return;
     const keys = this.#selection.pointers, entry = this.#scene.entry(this.#selection.active ?? "");
     if (!entry || keys.length > 1 || isSection(entry)) {
-      this.#signature = "";
       this.#sections = [];
       this.#showOther(keys, entry);
       return;
     }
     const chain = isNode(entry) ? chainOf(entry).filter(isNode) : [entry];
-    const signature = chain.map((e) => `${e.pointer} ${e.kind} ${Object.keys(e.parameters ?? {}).length > mostAtOnce}`).join("\n");
-    if (signature !== this.#signature) {
-      const isSame = this.#signature.split("\n")[0] === signature.split("\n")[0];
-      this.#signature = signature;
-      this.#sections = chain.map((e, i) => new Section(e, this.catalogue.of(e), this, i === 0));
-      const scroll = isSame ? body.scrollTop : 0;
-      body.replaceChildren(...this.#sections.map((section) => section.element));
+    const looks = chain.map((e, i) => `${e.pointer} ${e.kind} ${i === 0} ${Object.keys(e.parameters ?? {}).length > mostAtOnce}`);
+    if (looks.join("\n") !== this.#sections.map((section) => section.look).join("\n")) {
+      const before = this.#sections, scroll = before[0]?.look === looks[0] ? body.scrollTop : 0;
+      const had = body.contains(document.activeElement) ? document.activeElement : null;
+      this.#sections = chain.map((e, i) => before.find(({look}) => look === looks[i]) ?? new Section(looks[i], e, this.catalogue.of(e), this, i === 0));
+      // What is being typed elsewhere is not lost, but becomes part of the scene.
+      if (had && !this.#sections.some((section) => section.element.contains(had))) had.blur();
+      arrange(body, this.#sections.map((section) => section.element));
       body.scrollTop = scroll;
     }
     this.#sections.forEach((section, i) => section.show(chain[i], this, i === chain.length - 1));
     this.#showHead(head, entry);
   }
+  get #selected() {
+    return this.#selection.pointers.map((key) => this.#scene.entry(key)).filter(Boolean);
+  }
   #showHead(head, entry) {
-    const kind = this.catalogue.of(entry), focused = head.contains(document.activeElement) ? document.activeElement.dataset : null;
-    const crumbs = pathTo(entry).slice(0, -1);
+    const kind = this.catalogue.of(entry), crumbs = pathTo(entry).slice(0, -1).map((e) => ({key: e.pointer, text: nameOf(e, this.catalogue)}));
+    const buttons = this.act.buttonsFor(entry).filter((button) => !button.isOff);
+    const look = JSON.stringify([entry.key, entry.kind, entry.type, entry.label, nameOf(entry, this.catalogue), crumbs, buttons.map(({id}) => id)]);
+    refill(head, look, () => this.#headOf(entry, kind, crumbs, buttons));
+  }
+  async #rename(key, input) {
+    const entry = this.#scene.entry(key);
+    if (await this.act.renameTo(entry, input.value.trim()) !== true) input.value = entry.label;
+  }
+  #headOf(entry, kind, crumbs, buttons) {
     const name = entry.label
       ? make("input", {
         type: "text", class: "line name", value: entry.label, spellcheck: false, "aria-label": "Name", "data-action": "name",
         onfocus: (event) => event.target.select(),
-        onchange: (event) => this.act.renameTo(entry, event.target.value.trim()),
+        onchange: (event) => this.#rename(entry.key, event.target),
       })
       : make("h2", {title: kind?.title ?? ""}, nameOf(entry, this.catalogue));
-    const buttons = this.act.buttonsFor(entry).filter((button) => !button.isOff).map(({id, text, icon: image, keys, run}) => make("button", {
+    const run = (id, button) => this.act.buttonsFor(this.#scene.entry(entry.key)).find((one) => one.id === id).run(button);
+    const actions = buttons.map(({id, text, icon: image, keys}) => make("button", {
       type: "button", class: "icon-button", "aria-label": text, title: `${text}${keys ? ` (${keys})` : ""}`,
-      "data-action": id, onclick: (event) => run(event.currentTarget),
+      "data-action": id, onclick: (event) => run(id, event.currentTarget),
     }, icon(image)));
-    head.replaceChildren(
-      make("nav", {class: "crumbs", "aria-label": "Ancestors"}, crumbs.map((e) => make("button", {
-        type: "button", onclick: () => this.select(e.pointer),
-      }, nameOf(e, this.catalogue)))),
+    return [
+      make("nav", {class: "crumbs", "aria-label": "Ancestors"}, crumbs.map(({key, text}) => make("button", {
+        type: "button", onclick: () => this.select(key),
+      }, text))),
       make("div", {class: "title"}, icon(iconOf(entry)), name),
-      make("div", {class: "actions", role: "toolbar", "aria-label": "Actions"}, buttons),
+      make("div", {class: "actions", role: "toolbar", "aria-label": "Actions"}, actions),
       this.#about(entry, kind),
-      ...(isCombining(entry) ? [this.#combining(entry)] : []));
-    if (focused) head.querySelector(focused.operator ? `[data-operator="${focused.operator}"]` : `[data-action="${focused.action}"]`)?.focus();
+      ...(isCombining(entry) ? [this.#combining(entry)] : [])];
   }
   // Over and under differ only by which end of the list has precedence.
   #combining(entry) {
@@ -174,29 +194,37 @@ export class Inspector {
     }, "More"));
   }
   // The children in a slot, as buttons that select them, and one that adds another.
-  slotRows(entry, slot) {
+  lookOfSlot(entry, slot) {
     const inside = entry.children.filter((child) => child.slot === slot.name);
+    return [entry.key, slot.name, slot.list, inside.map((child) => [child.pointer, child.kind, nameOf(child, this.catalogue), child.phases.slice(0, 3).map(lookOf)])];
+  }
+  slotRows(key, {name, list}) {
+    const slotNow = () => this.#scene.entry(key).slots.find((slot) => slot.name === name);
+    const inside = this.#scene.entry(key).children.filter((child) => child.slot === name);
     const items = inside.map((child) => make("button", {type: "button", class: "slot-item", onclick: () => this.select(child.pointer)},
       icon(iconOf(child)), make("span", {class: "name"}, nameOf(child, this.catalogue)),
       make("span", {class: "swatches"}, child.phases.slice(0, 3).map(swatchOf))));
-    const add = slot.list || inside.length === 0 ? [make("button", {type: "button", class: "slot-add", onclick: () => this.act.addTo(entry, slot)}, icon("add"), "Add")] : [];
-    return [make("div", {class: "slot", role: "group", "aria-label": titleOf(slot.name)}, make("p", {class: "slot-name"}, titleOf(slot.name)), ...items, ...add)];
+    const add = list || inside.length === 0 ? [make("button", {
+      type: "button", class: "slot-add", "data-action": `add to ${name}`, onclick: () => this.act.addTo(this.#scene.entry(key), slotNow()),
+    }, icon("add"), "Add")] : [];
+    return [make("div", {class: "slot", role: "group", "aria-label": titleOf(name)}, make("p", {class: "slot-name"}, titleOf(name)), ...items, ...add)];
   }
+  // Several entries, a section, or nothing.
   #showOther(keys, entry) {
-    const {head, body} = this.#elements;
+    const {head, body} = this.#elements, {other} = this;
+    arrange(body, [other]);
+    const title = (image, text) => refill(head, JSON.stringify([image, text]), () => [make("div", {class: "title"}, icon(image), make("h2", {}, text))]);
     if (keys.length > 1) {
-      const entries = keys.map((key) => this.#scene.entry(key)).filter(Boolean);
-      head.replaceChildren(make("div", {class: "title"}, icon("group"), make("h2", {}, `${keys.length} selected`)));
-      body.replaceChildren(...this.act.buttonsForMany(entries).map(({text, icon: image, keys: shortcut, run, isOff, why}) =>
-        make("button", {type: "button", class: "wide-button", disabled: isOff ?? false, title: why ?? "", onclick: run}, icon(image), text, shortcut ? make("kbd", {}, shortcut) : null)));
-      return;
+      const buttons = this.act.buttonsForMany(this.#selected), press = (i, event) => this.act.buttonsForMany(this.#selected)[i].run(event);
+      title("group", `${keys.length} selected`);
+      refill(other, JSON.stringify(buttons.map(({text, isOff}) => [text, isOff])), () => buttons.map(({text, icon: image, keys: shortcut, isOff, why}, i) =>
+        make("button", {type: "button", class: "wide-button", disabled: isOff ?? false, title: why ?? "", onclick: (event) => press(i, event)}, icon(image), text, shortcut ? make("kbd", {}, shortcut) : null)));
+    } else if (entry) {
+      title(iconOf(entry), nameOf(entry, this.catalogue));
+      refill(other, entry.key, () => [make("button", {type: "button", class: "wide-button", onclick: () => this.act.addToSection(this.#scene.entry(entry.key))}, icon("add"), "Add")]);
+    } else {
+      refill(head, "", () => [make("h2", {}, "Nothing is selected")]);
+      refill(other, "", () => [make("p", {class: "about"}, "Click something in the picture or in the outline to change it, or press Add.")]);
     }
-    if (entry) {
-      head.replaceChildren(make("div", {class: "title"}, icon(iconOf(entry)), make("h2", {}, nameOf(entry, this.catalogue))));
-      body.replaceChildren(make("button", {type: "button", class: "wide-button", onclick: () => this.act.addToSection(entry)}, icon("add"), "Add"));
-      return;
-    }
-    head.replaceChildren(make("h2", {}, "Nothing is selected"));
-    body.replaceChildren(make("p", {class: "about"}, "Click something in the picture or in the outline to change it, or press Add."));
   }
 }

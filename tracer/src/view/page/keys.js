@@ -22,7 +22,7 @@ export function showKeys() {
     make("dl", {}, rows.flatMap(([keys, text]) => [make("dt", {}, keys.split(", ").flatMap((key) => [make("kbd", {}, key), " "])), make("dd", {}, text)]))))));
 }
 
-export function listenForKeys(actions, {toggleText, frame, toggleGrab, wrapButton}) {
+export function listenForKeys(actions, {toggleText, frame, toggleGrab, wrapButton, whenReady}) {
   document.addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open], [popover]:popover-open")) return;
     const control = event.ctrlKey || event.metaKey, key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
@@ -54,6 +54,6 @@ export function listenForKeys(actions, {toggleText, frame, toggleGrab, wrapButto
     })();
     if (!run) return;
     event.preventDefault();
-    run();
+    whenReady(run);
   });
 }

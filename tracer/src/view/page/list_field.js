@@ -51,6 +51,7 @@ export class ListField {
     const [before, last] = [this.#values.at(-2), this.#values.at(-1)], {size, scale = 1} = this.#options;
     const next = (a, b) => Number((2 * b - a).toPrecision(5));
     const value = size > 0 ? (before ? last.map((x, i) => next(before[i], x)) : last ? last.map((x, i) => (i === 0 ? next(x - scale / 4, x) : x)) : Array(size).fill(0)) : last ?? scale;
-    this.#changed([...this.#values, value], null);
+    this.show([...this.#values, value]);
+    this.#changed(this.#values, null);
   }
 }

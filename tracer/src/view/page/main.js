@@ -7,6 +7,7 @@ import {replaceSelect} from "./menu.js";
 import {PhaseList} from "./phases.js";
 import {draw, place} from "./picture.js";
 import {showPoint} from "./point.js";
+import {isPressed, whenReleased} from "./press.js";
 import {Changes, ask, askFile, follow, writeCamera} from "./server.js";
 import {fitPicture} from "./stage.js";
 import {Studio} from "./studio.js";
@@ -46,6 +47,10 @@ const studio = new Studio({
   camera: () => camera,
   radius: () => state?.radius ?? 1,
   lookAt: (centre) => camera && look(framed(camera, centre, 0.6 * state.radius)),
+  hide: (phase, isHidden) => {
+    const others = state.phases.filter(({name, hidden}) => hidden && name !== phase).map(({name}) => name);
+    changes.make({hidden: isHidden ? [...others, phase] : others});
+  },
   seek: (seconds) => {
     studio.showTime(seconds, state.times);
     changes.make({time: seconds});
@@ -114,6 +119,11 @@ function showState(next, pixels) {
   showText("warning", state.warning);
   if (pixels) draw(canvas, state, pixels);
   if (pixels) fit();
+  if (isPressed()) whenReleased().then(() => state === next && showPanels());
+  else showPanels();
+}
+
+function showPanels() {
   // Changes just made here are newer than the server's state.
   if (changes.arePending || state.version < changes.version) return;
   showPhases(state.phases);
@@ -133,7 +143,7 @@ function showState(next, pixels) {
 let seenPhases = "";
 function showPhases(shown) {
   phases.show(shown);
-  const text = JSON.stringify(shown.map(({name, kind, color}) => [name, kind, color]));
+  const text = JSON.stringify(shown.map(({name, kind, color, hidden}) => [name, kind, color, hidden]));
   if (text === seenPhases) return;
   seenPhases = text;
   setPhases(shown);

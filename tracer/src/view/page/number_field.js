@@ -36,6 +36,8 @@ export function calculated(text) {
 
 export class NumberField {
   #value = null;
+  #shown = [null, null]; // the last value and fallback
+  #sent = null;          // text that has been typed and sent
   #options;
   #changed;
   #keyGesture = {name: "", until: 0};
@@ -49,6 +51,7 @@ export class NumberField {
       type: "text", inputMode: "decimal", spellcheck: false, autocomplete: "off", role: "spinbutton", "aria-label": options.label,
       onfocus: () => this.input.select(),
       onblur: () => this.#type(),
+      oninput: () => { this.input.dataset.typed = "yes"; },
       onkeydown: (event) => this.#press(event),
     });
     if (Number.isFinite(options.low)) this.input.setAttribute("aria-valuemin", options.low);
@@ -63,8 +66,16 @@ export class NumberField {
   }
   show(value, fallback = null) {
     this.#value = value ?? fallback;
+    this.#shown = [value, fallback];
     if (this.input === document.activeElement && this.input.dataset.typed) return;
-    this.input.value = value === null ? "" : String(precise(value));
+    this.#sent = null;
+    const text = value === null ? "" : String(precise(value)), {selectionStart, selectionEnd} = this.input;
+    if (this.input.value !== text) {
+      const isWhole = selectionStart === 0 && selectionEnd === this.input.value.length;
+      this.input.value = text;
+      // The next key replaces the number, as it would have replaced the one before.
+      if (isWhole && this.input === document.activeElement) this.input.select();
+    }
     this.input.placeholder = fallback === null ? "none" : String(precise(fallback));
     if (this.#value !== null) this.input.setAttribute("aria-valuenow", this.#value);
   }
@@ -117,31 +128,34 @@ export class NumberField {
       const now = performance.now();
       if (now > this.#keyGesture.until) this.#keyGesture.name = newId("keys");
       this.#keyGesture.until = now + pauseOfKeys;
+      const typed = this.input.dataset.typed ? calculated(this.input.value.trim()) : NaN;
+      if (Number.isFinite(typed)) this.#value = typed;
       const step = this.#step * (event.shiftKey && !this.#options.isInteger ? 0.1 : event.ctrlKey ? 10 : 1);
       delete this.input.dataset.typed;
       this.#set(precise((this.#value ?? 0) + direction * step), this.#keyGesture.name);
       this.input.select();
     } else if (event.key === "Enter") {
-      this.#type();
+      this.#type(true);
       this.input.select();
     } else if (event.key === "Escape") {
       delete this.input.dataset.typed;
-      this.show(this.#value);
+      this.show(...this.#shown);
       this.input.blur();
-    } else if (event.key.length === 1 && !event.ctrlKey) {
-      this.input.dataset.typed = "yes";
-    } else if (event.key === "Backspace" || event.key === "Delete") {
-      this.input.dataset.typed = "yes";
     }
     if (event.key !== "Tab" && !event.ctrlKey) event.stopPropagation();
   }
-  #type() {
+  // What was sent already is sent again only on request, for example because the server did not answer.
+  #type(isAgain = false) {
     delete this.input.dataset.typed;
     const text = this.input.value.trim();
-    if (text === "" || text === String(precise(this.#value ?? NaN))) return;
+    if (this.#sent === null ? text === String(precise(this.#value ?? NaN)) : text === this.#sent && !isAgain) return;
     const value = calculated(text);
-    if (Number.isFinite(value)) this.#changed(this.#options.isInteger ? Math.round(value) : precise(value), null);
-    else this.show(this.#value);
+    if (!Number.isFinite(value)) {
+      this.input.dispatchEvent(new CustomEvent("nonsense", {bubbles: true, detail: text}));
+      return this.show(...this.#shown);
+    }
+    this.#sent = text;
+    this.#changed(this.#options.isInteger ? Math.round(value) : precise(value), null);
   }
 }
 

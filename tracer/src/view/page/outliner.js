@@ -1,13 +1,15 @@
 // The tree of what is in the scene: chosen by pointer or keyboard, filtered by words, and put in order by dragging.
 import {fits} from "./catalogue.js";
-import {make} from "./dom.js";
+import {arrange, make} from "./dom.js";
 import {icon, iconOf} from "./icons.js";
 import {nameOf, remarkOf} from "./names.js";
 import {indexOf, isInList, isSection, listOf, slotOf, typeOfPlace} from "./structure.js";
 import {isWithin, parentOf} from "./pointer.js";
-import {lookOf, swatchOf} from "./swatch.js";
+import {isHidden, lookOf, swatchOf} from "./swatch.js";
 
 const pixelsToDrag = 5;
+
+const isPhase = (entry) => entry.type === "material" && /^\/phases\/[^/]*$/.test(entry.pointer);
 
 export class Outliner {
   #scene;
@@ -22,7 +24,7 @@ export class Outliner {
   #anchor = null;
 
   // `elements` are those of the panel: tree, search. `act` has menu(entry, row, event), drop(entry, place), rename(entry),
-  // add(section) and openEdit().
+  // add(section), hide(phase, isHidden) and openEdit().
   constructor(elements, {scene, selection, act}) {
     this.#elements = elements;
     this.#scene = scene;
@@ -70,11 +72,11 @@ export class Outliner {
     this.#rows = new Map(this.#shown.map((entry) => [entry.key, this.#rowOf(entry)]));
     const rows = [...this.#rows.values()], isSame = rows.length === before.length && rows.every((row, i) => row === before[i]);
     if (!isSame || rows.length === 0) {
-      tree.replaceChildren(...rows);
+      arrange(tree, rows);
       tree.scrollTop = scroll;
       if (rows.length === 0) tree.append(make("p", {class: "faint empty"}, "No matches."));
     }
-    this.#showSelection();
+    this.#markSelection();
     if (hadFocus && !isSame) (this.#rows.get(focused) ?? this.#rows.get(this.#selection.active) ?? [...this.#rows.values()][0])?.focus();
   }
   // The row of an entry. Reuses the existing row if its appearance is unchanged, which keeps dragging a number fast.
@@ -106,6 +108,7 @@ export class Outliner {
         this.#act.add(now());
       },
     }, icon("add")));
+    if (isPhase(entry)) row.querySelector(".swatches").before(this.#eye(entry.label));
     row.addEventListener("click", (event) => this.#choose(now(), event));
     row.addEventListener("dblclick", () => (entry.label && !isSection(entry) ? this.#act.rename(now()) : this.#toggle(now())));
     row.addEventListener("contextmenu", (event) => {
@@ -115,6 +118,17 @@ export class Outliner {
     });
     row.addEventListener("pointerdown", (event) => this.#grab(now(), row, event));
     return row;
+  }
+  // Hides a phase in the picture, and shows it again.
+  #eye(phase) {
+    const isOff = isHidden(phase), text = `${isOff ? "Show" : "Hide"} ${phase} in the picture`;
+    return make("button", {
+      type: "button", class: `icon-button small eye${isOff ? " off" : ""}`, "aria-label": text, title: text, tabIndex: -1,
+      onclick: (event) => {
+        event.stopPropagation();
+        this.#act.hide(phase, !isHidden(phase));
+      },
+    }, icon(isOff ? "eye-off" : "eye"));
   }
   #toggle(entry, open = this.#closed.has(entry.key)) {
     if (open) this.#closed.delete(entry.key);
@@ -136,6 +150,10 @@ export class Outliner {
     this.#anchor = entry.key;
   }
   #showSelection() {
+    this.#markSelection();
+    this.#rows.get(this.#selection.active)?.scrollIntoView({block: "nearest"});
+  }
+  #markSelection() {
     const active = this.#selection.active;
     for (const [key, row] of this.#rows) {
       row.setAttribute("aria-selected", String(this.#selection.has(key)));
@@ -143,7 +161,6 @@ export class Outliner {
       row.tabIndex = key === active ? 0 : -1;
     }
     if (!this.#rows.has(active) && this.#shown.length > 0) this.#rows.get(this.#shown[0].key).tabIndex = 0;
-    this.#rows.get(active)?.scrollIntoView({block: "nearest"});
   }
   // Makes an entry's row visible.
   reveal(pointer) {

@@ -2,13 +2,13 @@
 import {hexOf, linearOf} from "./colour.js";
 import {ColourField} from "./colour_field.js";
 import {CurveField} from "./curve_field.js";
-import {make} from "./dom.js";
+import {make, refill} from "./dom.js";
 import {parsed, written} from "./json_text.js";
 import {ListField} from "./list_field.js";
 import {Choice} from "./menu.js";
 import {NumberField, VectorField} from "./number_field.js";
 import {RampField} from "./ramp_field.js";
-import {swatchOf} from "./swatch.js";
+import {lookOf, swatchOf} from "./swatch.js";
 
 const isNumbers = (value, n) => Array.isArray(value) && (n === undefined || value.length === n) && value.every((x) => typeof x === "number");
 const isColour = (value) => isNumbers(value, 3) || (typeof value === "string" && value.startsWith("#"));
@@ -108,15 +108,19 @@ export const makers = {
   // Several phases: each is a switch.
   phases(row) {
     const element = make("div", {class: "phases", role: "group", "aria-label": row.title});
+    let chosen = new Set();
+    const press = (button, name) => {
+      if (!chosen.delete(name)) chosen.add(name);
+      button.setAttribute("aria-pressed", String(chosen.has(name)));
+      row.change([...chosen], null);
+    };
     const show = (value) => {
-      const chosen = new Set(value ?? []);
-      element.replaceChildren(...row.context.phases().map((name) => make("button", {
-        type: "button", class: "chip", "aria-pressed": String(chosen.has(name)),
-        onclick: () => {
-          if (!chosen.delete(name)) chosen.add(name);
-          row.change([...chosen], null);
-        },
+      chosen = new Set(value ?? []);
+      const names = row.context.phases();
+      refill(element, names.map(lookOf).join(), () => names.map((name) => make("button", {
+        type: "button", class: "chip", onclick: (event) => press(event.currentTarget, name),
       }, swatchOf(name), name)));
+      names.forEach((name, i) => element.children[i].setAttribute("aria-pressed", String(chosen.has(name))));
     };
     return {element, show};
   },

@@ -17,6 +17,8 @@ export class ParameterRow {
   #sort = null;
   #control = null;
   #entry = null;
+  #pending = 0;          // changes that the server has not answered yet
+  #rejected = undefined; // what the file had when it rejected what is typed here
 
   // `context` has radius(), phases(), set(entry, name, text, gesture, row, index), where `index` is that of an item, reset(entry, name, row)
   // and fill(entry, slot), which puts a texture or the like in the place of a value.
@@ -36,6 +38,11 @@ export class ParameterRow {
       },
     }, this.title);
     this.place = make("div", {class: "control"});
+    this.place.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape" || this.#rejected === undefined) return;
+      this.#rejected = undefined;
+      this.fail("");
+    }, {capture: true});
     const {instead} = spec;
     this.insteadButton = instead && !instead.list && instead.type !== "keys" ? make("button", {
       type: "button", class: "icon-button small", "aria-label": `${this.title}: use a ${instead.type.replaceAll("_", " ")} instead`,
@@ -47,7 +54,7 @@ export class ParameterRow {
     }, icon("reset"));
     this.keyButton = spec.may_be_keyed ? make("button", {type: "button", class: "icon-button small key", onclick: () => this.#toggleKey()}, icon("key")) : null;
     this.problem = make("p", {class: "problem", role: "alert", hidden: true});
-    this.element = make("div", {class: "parameter", "data-parameter": spec.name}, this.label, this.place, make("div", {class: "beside"}, this.insteadButton, this.keyButton, this.resetButton), this.problem, this.help);
+    this.element = make("div", {class: "parameter", "data-parameter": spec.name}, this.label, this.place, make("div", {class: "beside"}, this.insteadButton, this.resetButton, this.keyButton), this.problem, this.help);
   }
   #helpText() {
     const {help, low, high, low_open: lowIsOpen, unit, required} = this.spec;
@@ -62,6 +69,12 @@ export class ParameterRow {
     this.#entry = entry;
     const parameter = entry.parameters?.[this.spec.name];
     const text = parameter?.text ?? null;
+    this.resetButton.hidden = parameter === undefined || Boolean(this.spec.required);
+    this.element.classList.toggle("present", parameter !== undefined);
+    // What has been changed here is newer than the scene, and what was rejected stays to be corrected.
+    if (this.#pending > 0 || this.#rejected === text) return;
+    if (this.#rejected !== undefined) this.fail("");
+    this.#rejected = undefined;
     try {
       this.written = text === null ? null : parsed(text);
     } catch {
@@ -78,20 +91,28 @@ export class ParameterRow {
     }
     const fits = isShown[sort] ?? (() => true);
     this.#control.show(this.value, fits(this.fallback) ? this.fallback : null, text);
-    this.resetButton.hidden = parameter === undefined || Boolean(this.spec.required);
-    this.element.classList.toggle("present", parameter !== undefined);
     this.#showKey();
   }
   // `index` says which item of a list is the only one that has changed.
   change(value, gesture, index) {
     const isItem = index !== undefined && Array.isArray(this.written) && this.written.length === value.length;
     this.value = value;
-    if (!isKeyed(this.written)) this.written = value;
-    if (isItem) this.context.set(this.#entry, this.spec.name, written(value[index]), gesture, this, index);
-    else this.changeText(written(set(this.written, value)), gesture);
+    const whole = set(this.written, value);
+    this.written = whole;
+    if (isItem) this.#send(written(value[index]), gesture, index);
+    else this.#send(written(whole), gesture);
   }
   changeText(text, gesture) {
-    this.context.set(this.#entry, this.spec.name, text, gesture, this);
+    this.written = parsed(text);
+    this.#send(text, gesture);
+  }
+  async #send(text, gesture, index) {
+    this.#pending += 1;
+    const isAccepted = await this.context.set(this.#entry, this.spec.name, text, gesture, this, index);
+    this.#pending -= 1;
+    if (this.#pending > 0) return;
+    this.#rejected = isAccepted || gesture !== null ? undefined : this.#entry.parameters?.[this.spec.name]?.text ?? null;
+    this.show(this.#entry);
   }
   // A key at the time of the picture is made, or removed. Without keys, the value has two at first.
   #toggleKey() {

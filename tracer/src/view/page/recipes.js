@@ -45,14 +45,14 @@ export const starter = {
   render: {width: 640, height: 480, samples: 64, exposure: 0.8},
 };
 
-// Materials to choose from when a new one is made.
+// Materials to choose from when a new one is made, each with the look of a small ball: its sort and its colour.
 export const materials = [
-  {name: "glass", text: "Glass", value: {clear: {ior: 1.5}}},
-  {name: "water", text: "Water", value: {clear: {ior: 1.33, color: [0.8, 0.93, 1], color_distance: 2}}},
-  {name: "ice", text: "Ice", value: {clear: {ior: 1.31}}},
-  {name: "fog", text: "Fog", value: {clear: {ior: 1, scattering: [0.3, 0.3, 0.3], phase_function: {droplets: {diameter: 10}}}}},
-  {name: "plastic", text: "Plastic", value: {coated: {color: [0.8, 0.1, 0.1], roughness: 0.2}}},
-  {name: "matt", text: "Matt", value: {diffuse: {color: [0.6, 0.58, 0.55]}}},
-  {name: "wood", text: "Wood", value: {coated: {color: {wood: {axis: [1, 0.1, 0.02], pith: [0, 0, -4]}}, roughness: 0.25}}},
-  {name: "gold", text: "Gold", value: {conductor: {metal: "gold", roughness: 0.1}}},
+  {name: "glass", text: "Glass", look: "clear", colour: "#dfeaea", value: {clear: {ior: 1.5}}},
+  {name: "water", text: "Water", look: "clear", colour: "#bfe2f5", value: {clear: {ior: 1.33, color: [0.8, 0.93, 1], color_distance: 2}}},
+  {name: "ice", text: "Ice", look: "clear", colour: "#e6f3fa", value: {clear: {ior: 1.31}}},
+  {name: "fog", text: "Fog", look: "matt", colour: "#e4e6e8", value: {clear: {ior: 1, scattering: [0.3, 0.3, 0.3], phase_function: {droplets: {diameter: 10}}}}},
+  {name: "plastic", text: "Plastic", look: "shiny", colour: "#c93636", value: {coated: {color: [0.8, 0.1, 0.1], roughness: 0.2}}},
+  {name: "matt", text: "Matt", look: "matt", colour: "#c8c3bc", value: {diffuse: {color: [0.6, 0.58, 0.55]}}},
+  {name: "wood", text: "Wood", look: "shiny", colour: "#a26a3c", value: {coated: {color: {wood: {axis: [1, 0.1, 0.02], pith: [0, 0, -4]}}, roughness: 0.25}}},
+  {name: "gold", text: "Gold", look: "shiny", colour: "#e0b04a", value: {conductor: {metal: "gold", roughness: 0.1}}},
 ];

@@ -28,6 +28,7 @@ export const grabAt = (x, y) => post("grab", {x, y});
 export const dragTo = (drag) => post("drag", drag);
 export const askFile = async (name) => (await answerTo(name)).blob();
 export const writeCamera = () => post("write", {});
+export const askStarts = async () => (await answerTo("starts")).json();
 export const askCatalogue = async () => (await answerTo("catalogue")).json();
 export const askDocument = async (after, text) => (await answerTo(`document?after=${after}&text=${text}`)).json();
 

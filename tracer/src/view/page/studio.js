@@ -9,21 +9,28 @@ import {Inspector} from "./inspector.js";
 import {listenForKeys, showKeys} from "./keys.js";
 import {Outliner} from "./outliner.js";
 import {Selection} from "./selection.js";
-import {askCatalogue, shortMessage} from "./server.js";
+import {askCatalogue, pause, shortMessage} from "./server.js";
 import {chainOf, isNode, isSection, membersOf, topOfChain} from "./structure.js";
 import {mapTo, transformPoint} from "./affine.js";
 import {present} from "./keyframes.js";
+import {whenReleased} from "./press.js";
 import {TextDrawer} from "./text_drawer.js";
 import {Timeline} from "./timeline.js";
 
+const pauseOfSaving = 700; // milliseconds
 const element = (id) => document.getElementById(id);
 
 export class Studio {
   #whenOutlined = null; // a selection that was made before the outline arrived
   #catalogue = null;
+  #unsaved = null;   // timer
+  #saveError = null; // the last one that was shown
+  #isReady = false; // whether the catalogue and the scene have arrived
+  #makeReady;
+  #ready = new Promise((done) => (this.#makeReady = done));
 
-  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), inspect(event), seek(seconds), togglePlay(), changed() and
-  // lost(error).
+  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), hide(phase, isHidden), inspect(event), seek(seconds),
+  // togglePlay(), changed() and lost(error).
   constructor(view) {
     this.view = view;
     this.scene = new SceneDocument();
@@ -39,6 +46,7 @@ export class Studio {
       drop: (entry, to) => this.actions.drop(entry, to),
       rename: (entry) => this.actions.rename(entry),
       add: (section) => this.actions.addToSection(section),
+      hide: (phase, isHidden) => view.hide(phase, isHidden),
       openEdit: () => this.#openEdit(),
     }});
     this.inspector = new Inspector({head: element("inspector-head"), body: element("inspector")}, {...common, act: this.actions, radius: view.radius, failed});
@@ -52,17 +60,24 @@ export class Studio {
     });
     this.scene.addEventListener("change", (event) => this.#changed(event.detail));
     this.selection.addEventListener("change", () => this.#selected());
+    document.addEventListener("nonsense", (event) => this.announcer.say(`“${event.detail.slice(0, 40)}” is not a number. Type one such as 0.5, 2e-3 or 1/3.`, {isWrong: true}));
     this.#connectButtons();
   }
   // Without a file, as for objects made in Python, there is nothing to edit, and only the view remains.
   async start() {
-    try {
-      this.#catalogue = new Catalogue(await askCatalogue());
-    } catch (error) {
-      if (error.status !== 404) throw error;
-      document.body.dataset.studio = "off";
-      this.view.tabs.show("view");
-      return;
+    while (!this.#catalogue) {
+      try {
+        this.#catalogue = new Catalogue(await askCatalogue());
+      } catch (error) {
+        if (error.status === 404) {
+          document.body.dataset.studio = "off";
+          this.view.tabs.show("view");
+          this.#isReady = true;
+          return;
+        }
+        this.view.lost(error);
+        await pause(1000);
+      }
     }
     this.scene.follow((error) => this.view.lost(error));
     this.actions.catalogue = this.text.catalogue = this.handles.catalogue = this.#catalogue;
@@ -84,10 +99,19 @@ export class Studio {
       undo: () => actions.undo(), redo: () => actions.redo(), add: () => actions.add(), wrap: () => actions.wrapMenu(element("wrap")),
       duplicate: () => actions.duplicate(), delete: () => actions.delete(), "text-toggle": () => this.#toggleText(), help: showKeys,
       "save-file": () => this.scene.save().catch((error) => this.announcer.say(shortMessage(error), {isWrong: true})),
-      "empty-add": () => actions.add(), "empty-start": () => actions.startWithBall(), frame: () => this.frame(),
+      "empty-add": () => actions.add(), "empty-start": () => actions.startWithBall(), "empty-scene": () => actions.startWith(element("empty-scene")), "whole-scene": () => actions.startWith(element("whole-scene")), frame: () => this.frame(),
     };
-    for (const [id, act] of Object.entries(run)) element(id).addEventListener("click", act);
-    listenForKeys(actions, {toggleText: () => this.#toggleText(), frame: () => this.frame(), toggleGrab: () => this.grab.toggle(), wrapButton: element("wrap")});
+    for (const [id, act] of Object.entries(run)) element(id).addEventListener("click", () => this.#whenReady(act));
+    listenForKeys(actions, {toggleText: () => this.#toggleText(), frame: () => this.frame(), toggleGrab: () => this.grab.toggle(), wrapButton: element("wrap"),
+      whenReady: (act) => this.#whenReady(act)});
+  }
+  // What is pressed while the page still loads is done as soon as it has loaded.
+  async #whenReady(act) {
+    if (!this.#isReady) {
+      this.announcer.say("The scene is still being loaded …");
+      await this.#ready;
+    }
+    act();
   }
   #toggleText() {
     const isOpen = this.text.toggle();
@@ -100,6 +124,8 @@ export class Studio {
   }
   #changed({isFirst, isOwn}) {
     const {scene} = this;
+    this.#isReady = true;
+    this.#makeReady();
     this.selection.update(scene);
     this.outliner.show();
     if (scene.hasOutline) {
@@ -114,11 +140,24 @@ export class Studio {
     element("redo").disabled = scene.redo === null;
     element("undo").title = scene.undo === null ? "Nothing to undo" : `Undo: ${scene.undo} (Ctrl+Z)`;
     element("redo").title = scene.redo === null ? "Nothing to redo" : `Redo: ${scene.redo} (Ctrl+Shift+Z)`;
-    element("saved").textContent = scene.saveError ?? (scene.saved ? "Saved" : "Not saved");
-    element("save-file").hidden = scene.saved;
+    this.#showSaved();
     element("empty").hidden = !scene.hasOutline || ["/tree", "section:objects"].some((key) => scene.entry(key));
     this.view.changed();
     if (!isFirst && !isOwn) this.announcer.say(scene.undo ? `Changed elsewhere: ${scene.undo}` : "Changed elsewhere");
+  }
+  // Every step is saved at once, so only what stays unsaved is worth a button.
+  #showSaved() {
+    const {saved, saveError} = this.scene, show = () => {
+      element("saved").textContent = this.scene.saved ? "Saved" : "Not saved";
+      element("saved").classList.toggle("hidden-text", !this.scene.saved);
+      element("save-file").hidden = this.scene.saved;
+      element("save-file").title = this.scene.saveError ?? "Save the scene file";
+    };
+    clearTimeout(this.#unsaved);
+    if (saved) show();
+    else this.#unsaved = setTimeout(() => whenReleased().then(show), pauseOfSaving);
+    if (saveError && saveError !== this.#saveError) this.announcer.say(`Not saved: ${saveError}`, {isWrong: true});
+    this.#saveError = saveError;
   }
   #selected() {
     const {active} = this.actions;

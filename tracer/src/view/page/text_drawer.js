@@ -1,7 +1,8 @@
 // The scene's text, with line numbers. What is typed becomes part of the scene after a short pause, and a mistake is
 // marked at its line; the picture stays as it was until the text is right again.
 import {completions} from "./completion.js";
-import {make, newId} from "./dom.js";
+import {make, newId, refill} from "./dom.js";
+import {merged} from "./merge.js";
 
 const pauseOfTyping = 500; // milliseconds
 
@@ -11,6 +12,9 @@ export class TextDrawer {
   #timer = null;
   #gesture = null;
   #isTyped = false;
+  #base = null;     // {text, version} of the scene to which the typed text belongs
+  #sent = null;     // the text that is on its way
+  #isRefused = false; // whether what is typed cannot be merged with what has changed elsewhere
   #proposed = null; // {typed, names}
   catalogue = null;
 
@@ -20,7 +24,7 @@ export class TextDrawer {
     this.#scene = scene;
     const {area, lines} = elements;
     area.addEventListener("input", () => {
-      this.#isTyped = true;
+      this.#begin();
       this.#gesture ??= newId("text");
       this.#number();
       this.#propose();
@@ -74,31 +78,76 @@ export class TextDrawer {
     area.setRangeText(`${name}"`, at - this.#proposed.typed.length, hasEnd ? at + 1 : at, "end");
     area.dispatchEvent(new Event("input"));
   }
+  // From now on, the text is a person's, and no longer replaced by the scene's.
+  #begin() {
+    if (!this.#isTyped) this.#base = {text: this.#shown ?? this.#scene.text, version: this.#scene.version};
+    this.#isTyped = true;
+  }
+  #shown = null; // the last text of the scene that was shown
+  #end() {
+    this.#isTyped = this.#isRefused = false;
+    this.#base = null;
+  }
   async #send() {
     clearTimeout(this.#timer);
     const text = this.#elements.area.value;
-    if (text === this.#scene.text) {
-      this.#isTyped = false;
-      return;
-    }
+    if (text === this.#scene.text) this.#end();
+    if (!this.#isTyped || this.#isRefused || this.#sent !== null) return;
+    this.#sent = text;
+    let isOutdated = false;
     try {
-      await this.#scene.perform({label: "Edit the text", operations: [{text}], merge: this.#gesture, strict: false});
-      if (this.#elements.area.value === text) this.#isTyped = false;
+      const version = await this.#scene.perform({label: "Edit the text", operations: [{text}], base: this.#base.version, merge: this.#gesture, strict: false});
+      this.#base = {text, version};
+      this.#isRefused = false;
+      if (this.#elements.area.value === text) this.#end();
     } catch (error) {
-      this.#showProblem(error.place ?? {message: error.message});
+      isOutdated = error.isOutdated;
+      if (!isOutdated) {
+        this.#sent = null;
+        return this.#showProblem(error.place ?? {message: error.message});
+      }
     }
+    this.#sent = null;
+    this.show(); // merges what has changed elsewhere meanwhile
+    if (this.#isTyped && (isOutdated || this.#elements.area.value !== text)) this.#timer = setTimeout(() => this.#send(), pauseOfTyping);
   }
   show() {
-    const {area} = this.#elements;
     if (!this.isOpen) return;
-    if (!this.#isTyped && area.value !== this.#scene.text) {
-      const {selectionStart, scrollTop} = area;
-      area.value = this.#scene.text;
-      area.setSelectionRange(selectionStart, selectionStart);
-      area.scrollTop = scrollTop;
-    }
+    const {text, version} = this.#scene;
+    if (!this.#isTyped) this.#put(text, (at) => at);
+    else if (text !== this.#base.text && text !== this.#sent) this.#merge(text, version);
+    this.#shown = text;
     this.#number();
-    this.#showProblem(this.#scene.error);
+    if (this.#isRefused) this.#showConflict();
+    else this.#showProblem(this.#scene.error);
+  }
+  // Keeps the caret, which `moved` maps from the old text to the new one.
+  #put(text, moved) {
+    const {area} = this.#elements, {selectionStart, selectionEnd, scrollTop} = area;
+    if (area.value === text) return;
+    area.value = text;
+    area.setSelectionRange(moved(selectionStart), moved(selectionEnd));
+    area.scrollTop = scrollTop;
+  }
+  // The scene has changed elsewhere, while a text is typed here.
+  #merge(text, version) {
+    const both = merged(this.#base.text, this.#elements.area.value, text);
+    this.#isRefused = both === null;
+    if (!both) return;
+    this.#put(both.text, both.move);
+    this.#base = {text, version};
+  }
+  #showConflict() {
+    const {problem} = this.#elements, choose = (text, act) => make("button", {type: "button", onclick: act}, text);
+    problem.hidden = false;
+    refill(problem, "conflict", () => ["The same lines have been changed elsewhere. ", choose("Keep my text", () => {
+      this.#base = {text: this.#scene.text, version: this.#scene.version};
+      this.#isRefused = false;
+      this.#send();
+    }), " ", choose("Take the other text", () => {
+      this.#end();
+      this.show();
+    })]);
   }
   #number() {
     const {area, lines} = this.#elements, count = area.value.split("\n").length;
@@ -110,7 +159,8 @@ export class TextDrawer {
     for (const line of lines.querySelectorAll(".wrong")) line.classList.remove("wrong");
     problem.hidden = !error;
     if (!error) return;
-    problem.textContent = error.line ? `Line ${error.line}: ${error.message}` : error.message;
+    const text = error.line ? `Line ${error.line}: ${error.message}` : error.message;
+    refill(problem, text, () => [text]);
     lines.children[error.line - 1]?.classList.add("wrong");
   }
   // Scrolls to a line of the text.

@@ -86,20 +86,20 @@ export class Timeline {
     const button = event.currentTarget, box = button.parentElement.getBoundingClientRect(), [low, high] = this.#range, gesture = newId("key");
     const base = track.value.keys[i][0];
     let isDragged = false;
+    this.#drag = {range: [low, high]}; // from now on, the button stays
     button.focus();
     const move = (now) => {
       const by = (now.clientX - event.clientX) / box.width * (high - low), grid = now.shiftKey ? 0.001 : 10 ** Math.floor(Math.log10((high - low) / 50));
       if (!isDragged && Math.abs(now.clientX - event.clientX) < 3) return;
       isDragged = true;
-      this.#drag = {range: [low, high]};
       const at = this.#move(track, i, Math.round((base + by) / grid) * grid, gesture);
       button.style.left = `${100 * (at - low) / (high - low)}%`;
     };
     const end = () => {
       button.removeEventListener("pointermove", move);
       this.#drag = null;
-      if (isDragged) this.show();
-      else this.#act.seek(base);
+      this.show();
+      if (!isDragged) this.#act.seek(base);
     };
     button.setPointerCapture(event.pointerId);
     button.addEventListener("pointermove", move);
