@@ -10,7 +10,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +34,10 @@ using namespace phasetree::tests;
 
 namespace {
 
-constexpr double rounding_of_repair = 1e-6, rounding_of_floats = 4e-7;  // of the mesh's largest coordinate
+// The region of a face extends beyond each of its sides, and beyond the ends of the longest one, by 2⁻²² of that side
+// (mesh_pieces.hpp): so by √2 times as much at corners.
+constexpr double slack_of_faces = 0x1.6ap-22;  // of the mesh's diagonal
+constexpr double moved_by_repair = 1e-6;       // of the mesh's largest coordinate
 
 bool is_inside(const std::string& rule, double winding) {
     if (rule == "even_odd") return std::lround(winding) % 2 != 0;
@@ -48,7 +53,8 @@ class Solid {
             box_ = unite(box_, {v, v});
             for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(v[i]));
         }
-        rounding_ = (node_.corners.empty() ? rounding_of_floats : rounding_of_repair) * static_cast<double>(largest);
+        rounding_ = slack_of_faces * static_cast<double>(box_.diagonal());
+        if (is_repaired()) rounding_ += moved_by_repair * static_cast<double>(largest);
     }
 
     const DefectiveMesh& mesh() const { return mesh_; }
@@ -250,6 +256,50 @@ TEST_CASE("winding numbers by products of complex numbers are sums of arc tangen
     for (std::size_t i = 0; i < points.size(); ++i)
         worst = std::max(worst, std::abs(of_open[i] - oracle::winding_number(open, points[i])));
     CHECK(worst < 1e-10);
+}
+
+// Each cap is a fan of triangles around a vertex on the rim, with angles of half a degree there, as CAD programs write.
+TEST_CASE("the region of a face does not extend beyond its sharp corners") {
+    constexpr int n = 360;
+    TriangleMesh mesh;
+    for (int i = 0; i < n; ++i) {
+        const double a = 2 * std::numbers::pi * i / n;
+        for (const double z : {-0.5, 0.5}) mesh.vertices.push_back(glm::dvec3(std::cos(a), std::sin(a), z));
+    }
+    // Turned, because points outside the box around the mesh are outside anyway.
+    const glm::dmat3 turn = glm::dmat3(glm::rotate(glm::dmat4(1), 0.8, glm::normalize(glm::dvec3(1, 2, 3))));
+    for (glm::vec3& v : mesh.vertices) v = turn * glm::dvec3(v);
+    const auto vertex = [](int i, int top) { return static_cast<std::uint32_t>(2 * (i % n) + top); };
+    for (int i = 0; i < n; ++i) {
+        mesh.triangles.push_back({vertex(i, 0), vertex(i + 1, 0), vertex(i + 1, 1)});
+        mesh.triangles.push_back({vertex(i, 0), vertex(i + 1, 1), vertex(i, 1)});
+        if (i == 0 || i + 1 == n) continue;
+        mesh.triangles.push_back({vertex(0, 1), vertex(i, 1), vertex(i + 1, 1)});
+        mesh.triangles.push_back({vertex(0, 0), vertex(i + 1, 0), vertex(i, 0)});
+    }
+    const Solid solid({.name = "fans", .file = mesh, .meant = mesh});
+    CHECK_FALSE(solid.is_repaired());
+    Random rng(339);
+    std::size_t wrong = 0, outside = 0;
+    double farthest = 0;
+    std::vector<glm::vec3> points;
+    for (int k = 0; k < 20'000; ++k) {
+        const float away = std::pow(10.f, rng.uniform(-6, -3));
+        points.push_back(mesh.vertices[vertex(0, 1)] + away * rng.direction());
+    }
+    const std::vector<double> windings = winding_numbers(mesh, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool expected = windings[i] >= 0.5;
+        outside += !expected;
+        if (expected == solid.contains(points[i])) continue;
+        const double far = oracle::to_triangles(mesh, glm::dvec3(points[i]));
+        wrong += far > solid.rounding();
+        farthest = std::max(farthest, far / solid.rounding());
+    }
+    MESSAGE("wrong labels at most ", farthest, " roundings from the surface");
+    CHECK(outside > points.size() / 2);
+    CHECK(wrong == 0);
+    compare({.name = "fans", .file = mesh, .meant = mesh}, rng);
 }
 
 TEST_CASE("meshes with planted defects are the solids of their winding numbers") {

@@ -76,12 +76,10 @@ class Uniting {
         std::optional<Chain> second = union_of(shells.subspan(shells.size() / 2));
         if (!second || first->triangles.empty()) return second;
         if (second->triangles.empty()) return first;
-        if (std::optional<Chain> both = united(*first, *second)) return both;
-        return with_each(std::move(*first), shells.subspan(shells.size() / 2));
+        return united(*first, *second);
     }
 
-    // Returns nullopt if they cannot be separated.
-    std::optional<Chain> united(const Chain& first, const Chain& second) {
+    Chain united(const Chain& first, const Chain& second) {
         const bool are_apart = intersect(box_of(first).inflated(margin), box_of(second)).empty();
         Chain both = first;
         const auto offset = static_cast<std::uint32_t>(both.points.size());
@@ -91,28 +89,7 @@ class Uniting {
             both.triangles.push_back(t);
         }
         if (are_apart) return both;
-        const auto windings = arranged_windings(both, name_, work_);
-        if (!windings) return std::nullopt;
-        return boundary_of(both, *windings, WindingRule::winding_number);
-    }
-
-    // Adds shells one by one. Those that cannot be separated from the others are tried again after these.
-    Chain with_each(Chain all, std::span<const std::uint32_t> shells) {
-        std::vector<std::uint32_t> left(shells.begin(), shells.end());
-        while (!left.empty()) {
-            std::vector<std::uint32_t> failed;
-            for (const std::uint32_t s : left) {
-                const std::optional<Chain> next = solid(s);
-                std::optional<Chain> more = next ? united(all, *next) : std::nullopt;
-                if (more)
-                    all = std::move(*more);
-                else
-                    failed.push_back(s);
-            }
-            if (failed.size() == left.size()) reject_inseparable(name_);
-            left = std::move(failed);
-        }
-        return all;
+        return arranged_boundary(both, WindingRule::winding_number, name_, work_);
     }
 
     // The solid within a shell; nullopt if it winds around some points negatively.
