@@ -34,9 +34,10 @@ using namespace phasetree::tests;
 
 namespace {
 
-// The region of a face extends beyond each of its sides, and beyond the ends of the longest one, by 2⁻²² of that side
-// (mesh_pieces.hpp): so by √2 times as much at corners.
-constexpr double slack_of_faces = 0x1.6ap-22;  // of the mesh's diagonal
+// The region of a face extends beyond each of its sides, and beyond the ends of the longest one, by 2⁻²² of that side,
+// which bounds the rounding errors (mesh_pieces.hpp). With these errors, that is twice as much, and at corners √2 times
+// more.
+constexpr double slack_of_faces = 0x1.6ap-21;  // of the mesh's diagonal
 constexpr double moved_by_repair = 1e-6;       // of the mesh's largest coordinate
 
 bool is_inside(const std::string& rule, double winding) {
