@@ -120,6 +120,9 @@ Labels compare_labels(const Solid& solid, Random& rng, std::size_t count) {
             }
             CAPTURE(windings[i]);
             CAPTURE(far);
+            CAPTURE(p.x);
+            CAPTURE(p.y);
+            CAPTURE(p.z);
             if (++found.wrong < 10) CHECK_MESSAGE(expected == solid.contains(points[i]), solid.mesh().name);
         }
     }

@@ -6,6 +6,14 @@
 #include <cstdint>
 #include <numbers>
 
+// Compiled once for each instruction set. The bits are the same, because nothing is contracted.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define PHASETREE_EACH_INSTRUCTION_SET __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define PHASETREE_EACH_INSTRUCTION_SET
+#endif
+
 namespace phasetree::tests {
 
 namespace {
@@ -23,7 +31,7 @@ struct Product {
 };
 
 // Multiplies by the complex number whose argument is half of the solid angle of a triangle.
-void multiply(Product& product, const Seen& a, const Seen& b, const Seen& c) {
+inline __attribute__((always_inline)) void multiply(Product& product, const Seen& a, const Seen& b, const Seen& c) {
     for (std::size_t i = 0; i < lanes; ++i) {
         const double determinant = a.x[i] * (b.y[i] * c.z[i] - b.z[i] * c.y[i]) +
                                    a.y[i] * (b.z[i] * c.x[i] - b.x[i] * c.z[i]) +
@@ -46,12 +54,24 @@ void multiply(Product& product, const Seen& a, const Seen& b, const Seen& c) {
 }
 
 // Keeps the product from overflowing and underflowing.
-void rescale(Product& product) {
+inline __attribute__((always_inline)) void rescale(Product& product) {
     for (std::size_t i = 0; i < lanes; ++i) {
         const double scale = 1 / (std::abs(product.real[i]) + std::abs(product.imaginary[i]) + 1e-300);
         product.real[i] *= scale;
         product.imaginary[i] *= scale;
     }
+}
+
+PHASETREE_EACH_INSTRUCTION_SET Product product_of(const std::vector<glm::uvec3>& triangles,
+                                                  const std::vector<Seen>& seen) {
+    Product product{};
+    product.real.fill(1);
+    std::size_t factors = 0;
+    for (const glm::uvec3& t : triangles) {
+        multiply(product, seen[t.x], seen[t.y], seen[t.z]);
+        if (++factors % 8 == 0) rescale(product);
+    }
+    return product;
 }
 
 void look(const TriangleMesh& mesh, const std::array<glm::dvec3, lanes>& points, double scale,
@@ -79,13 +99,7 @@ std::vector<double> winding_numbers(const TriangleMesh& mesh, std::span<const gl
         std::array<glm::dvec3, lanes> block;
         for (std::size_t i = 0; i < lanes; ++i) block[i] = points[std::min(first + i, points.size() - 1)];
         look(mesh, block, 1 / size, seen);
-        Product product{};
-        product.real.fill(1);
-        std::size_t factors = 0;
-        for (const glm::uvec3& t : mesh.triangles) {
-            multiply(product, seen[t.x], seen[t.y], seen[t.z]);
-            if (++factors % 8 == 0) rescale(product);
-        }
+        const Product product = product_of(mesh.triangles, seen);
         for (std::size_t i = 0; i < lanes && first + i < points.size(); ++i)
             result[first + i] =
                 std::atan2(product.imaginary[i], product.real[i]) / (2 * std::numbers::pi) + product.turns[i];
