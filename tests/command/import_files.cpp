@@ -137,13 +137,11 @@ TEST_CASE("clear objects that floats cannot trace are rejected when they are imp
         g.node("a", g.mesh(box({0, 0, 0}, {size, size, size}), g.clear("glass", 1.5f)));
         return g;
     };
-    for (const float size : {1e-20f, 1e16f}) {
-        const Outcome o = shell.import(with_box(size));
-        CAPTURE(o.err);
-        CHECK(o.code == 2);
-        CHECK(has(o.err, "in.glb: its clear objects are beyond what 32-bit floats can trace"));
-        CHECK(shell.entries() == 1);
-    }
+    const Outcome o = shell.import(with_box(1e-20f));
+    CAPTURE(o.err);
+    CHECK(o.code == 2);
+    CHECK(has(o.err, "in.glb: its clear objects are beyond what 32-bit floats can trace: their diagonal is 1.7e-20 m"));
+    CHECK(shell.entries() == 1);
     (void)shell.import_well(with_box(1e-10f));
     // Beside a large object, a tiny one does no harm.
     Gltf both = with_box(1e-20f);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks exported triangles with programs that share no code with phasetree, and reads them back as phases.
 
-    PYTHONPATH=build/release/plugins/python /usr/bin/python3 tests/exports/check.py build/release/tracer/phasetree
+    PYTHONPATH=build/release/plugins/python /usr/bin/python3 tests/exports/check_exports.py build/release/tracer/phasetree
         [--scenes NAME…] [--divisions N,N,N] [--points N] [--crossings PROGRAM]
 
 Every scene of the gallery is exported at spacings of 1/N of the longest side of its bounds, with a file per phase. For
