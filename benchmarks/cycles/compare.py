@@ -2,13 +2,15 @@
 """How long phasetree and Blender's Cycles take to the same error on the same picture.
 
     PYTHONPATH=build/release/plugins/python python3 benchmarks/cycles/compare.py build/release/tracer/phasetree
-        [--scenes hourglass,drinks] [--size WIDTHxHEIGHT] [--samples OURS,CYCLES] [--rounds N] [--threads N] [--keep FOLDER]
+        [--scenes hourglass,drinks,drink] [--size WIDTHxHEIGHT] [--samples OURS,CYCLES] [--rounds N] [--threads N] [--cpu] [--keep FOLDER]
 
 README.md, beside this file, says what is compared and how. Needs Debian's `blender`, `python3-openimageio`, `python3-numpy`.
 """
 import argparse
 import json
+import math
 import os
+import resource
 import shutil
 import statistics
 import subprocess
@@ -23,6 +25,16 @@ from interfaces import interfaces
 HERE = os.path.dirname(os.path.abspath(__file__))
 # The grid's spacing for each scene, in its unit: a quarter of what its thinnest wall measures, or less.
 SPACINGS = {"hourglass": 0.006, "drinks": 0.004}
+# The drink of drink.py: its surroundings, in metres. The backdrop reaches slightly into the glass.
+AROUND_DRINK = {
+    "meshes": [{"backdrop": {"height": 0.0002, "distance": 0.35, "radius": 0.25, "width": 4, "front": 1, "wall": 2,
+                             "material": {"diffuse": {"color": [0.62, 0.60, 0.57]}}}}],
+    "lights": [{"rectangle": {"centre": [-0.45, -0.25, 0.55], "target": [0, 0, 0.06], "width": 0.35, "height": 0.45,
+                              "radiance": [1, 0.96, 0.9], "intensity": 12}},
+               {"gradient": {"zenith": [0.9, 0.95, 1], "horizon": [0.5, 0.5, 0.52], "ground": [0.2, 0.19, 0.18],
+                             "intensity": 0.9}}],
+    "camera": {"position": [0.10, -0.48, 0.20], "look_at": [0.004, 0, 0.071], "fov": 19.5, "filter": "box"},
+}
 # The mean colours of the textures, which would be another picture in Cycles.
 MIXED = {"speckle": ("color", "other"), "wood": ("light", "dark")}
 
@@ -67,31 +79,71 @@ class Side:
 
 
 def ours(command, folder, options, samples, seeds):
+    def render(seed, spp):
+        output, stats = os.path.join(folder, f"ours.{seed}.exr"), os.path.join(folder, "stats.json")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        subprocess.run([command, "render", os.path.join(folder, "scene.json"), "--quiet", "--size", "{}x{}".format(*options.size),
+                        "--spp", str(spp), "--seed", str(seed), "--threads", str(options.threads), "-o", output,
+                        "--stats", stats], check=True)
+        if options.cpu:
+            return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+        with open(stats, encoding="utf-8") as file:
+            return json.load(file)["render_seconds"]
+
+    # Processor time includes the preparation, so that of a picture with one sample is subtracted.
+    preparation = render(seeds[0], 1) if options.cpu else 0
     pictures, seconds = [], []
     for seed in seeds:
-        output, stats = os.path.join(folder, f"ours.{seed}.exr"), os.path.join(folder, "stats.json")
-        subprocess.run([command, "render", os.path.join(folder, "scene.json"), "--quiet", "--size", "{}x{}".format(*options.size),
-                        "--spp", str(samples), "--seed", str(seed), "--threads", str(options.threads), "-o", output,
-                        "--stats", stats], check=True)
-        with open(stats, encoding="utf-8") as file:
-            seconds.append(json.load(file)["render_seconds"])
-        pictures.append(picture(output))
+        taken = render(seed, samples) - preparation
+        seconds.append(taken * samples / (samples - 1) if options.cpu else taken)
+        pictures.append(picture(os.path.join(folder, f"ours.{seed}.exr")))
     return pictures, seconds
 
 
-def cycles(folder, options, samples, seeds):
+def in_blender(script, *arguments):
     run = subprocess.run(["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python",
-                          os.path.join(HERE, "in_blender.py"), "--", folder,
-                          *(str(n) for n in (*options.size, samples, options.threads, *seeds))],
+                          os.path.join(HERE, script), "--", *arguments],
                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if run.returncode != 0:
         sys.exit(f"Blender failed:\n{run.stdout[-3000:]}")
+
+
+def cycles(folder, options, samples, seeds):
+    in_blender("in_blender.py", folder, *(str(n) for n in (*options.size, samples, options.threads, int(options.cpu), *seeds)))
     with open(os.path.join(folder, "times.json"), encoding="utf-8") as file:
         seconds = json.load(file)
     return [picture(os.path.join(folder, f"cycles.{seed}.exr")) for seed in seeds], seconds
 
 
-def prepare(name, folder):
+def prepare_drink(command, folder):
+    """Blender writes the drink as glTF, and `phasetree import` makes a scene of it. Cycles renders Blender's file."""
+    in_blender("drink.py", folder)
+    report = subprocess.run([command, "import", "drink.glb", "-o", "scene.json", "--force"], check=True, cwd=folder,
+                            capture_output=True, text=True).stdout
+    print(report, file=sys.stderr)
+    with open(os.path.join(folder, "scene.json"), encoding="utf-8") as file:
+        scene = json.load(file)
+    scene |= AROUND_DRINK | {"meshes": scene["meshes"] + AROUND_DRINK["meshes"]}
+    scene["render"] = {"exposure": 0}
+    # Blender's exporter copies the colour of a Volume Absorption, which absorbs (1 − colour) × density in Cycles.
+    tea = scene["phases"]["Tea"]["clear"]
+    tea["color"] = [math.exp(c - 1) for c in tea["color"]]
+    with open(os.path.join(folder, "scene.json"), "w", encoding="utf-8") as file:
+        json.dump(scene, file)
+    return triangles_of_glb(os.path.join(folder, "drink.glb"))
+
+
+def triangles_of_glb(path):
+    with open(path, "rb") as file:
+        data = file.read()
+    gltf = json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
+    return sum(gltf["accessors"][part["indices"]]["count"] // 3
+               for node in gltf["nodes"] if "mesh" in node for part in gltf["meshes"][node["mesh"]]["primitives"])
+
+
+def prepare(command, name, folder):
+    if name == "drink":
+        return prepare_drink(command, folder)
     scene = os.path.join(HERE, "..", "..", "scenes", f"{name}.json")
     loaded = pt.load(scene)
     description = plain(json.loads(loaded.to_json()))
@@ -110,11 +162,12 @@ def prepare(name, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("command")
-    parser.add_argument("--scenes", default="hourglass,drinks", type=lambda text: text.split(","))
+    parser.add_argument("--scenes", default="hourglass,drinks,drink", type=lambda text: text.split(","))
     parser.add_argument("--size", default=(300, 300), type=lambda text: tuple(int(n) for n in text.split("x")))
     parser.add_argument("--samples", default=(64, 64), type=lambda text: tuple(int(n) for n in text.split(",")))
     parser.add_argument("--rounds", default=3, type=int)
     parser.add_argument("--threads", default=2, type=int)
+    parser.add_argument("--cpu", action="store_true", help="measure processor time: for busy machines")
     parser.add_argument("--keep", help="a folder for the meshes and pictures, which are thrown away otherwise")
     options = parser.parse_args()
     command = os.path.abspath(options.command)
@@ -126,7 +179,7 @@ def main():
         with tempfile.TemporaryDirectory() as temporary:
             folder = os.path.join(options.keep, name) if options.keep else temporary
             os.makedirs(folder, exist_ok=True)
-            triangles = prepare(name, folder)
+            triangles = prepare(command, name, folder)
             here, there = Side(), Side()
             for turn in range(options.rounds):
                 seeds = (2 * turn + 1, 2 * turn + 2)

@@ -1,9 +1,9 @@
 """Renders a scene in Blender's Cycles from the meshes that compare.py writes: run by Blender, not by hand.
 
-    blender --background --factory-startup --python in_blender.py -- FOLDER WIDTH HEIGHT SAMPLES THREADS SEED…
+    blender --background --factory-startup --python in_blender.py -- FOLDER WIDTH HEIGHT SAMPLES THREADS CPU SEED…
 
-FOLDER holds scene.json and interfaces.npz; a picture of each seed is written there, and times.json with the seconds of each,
-scene and hierarchy ready, on the wall.
+FOLDER holds scene.json, and interfaces.npz or drink.blend; a picture of each seed is written there, and times.json with the seconds of each,
+scene and hierarchy ready: processor time if CPU is 1, wall-clock time if it is 0.
 """
 import json
 import math
@@ -209,15 +209,10 @@ def settings(scene, width, height, samples, threads):
     cycles.pixel_filter_type = "BOX"
 
 
-def main():
-    folder, *numbers = sys.argv[sys.argv.index("--") + 1:]
-    width, height, samples, threads, *seeds = (int(n) for n in numbers)
-    with open(os.path.join(folder, "scene.json"), encoding="utf-8") as file:
-        description = json.load(file)
+def add_interfaces(folder, phases):
     for thing in list(bpy.data.objects):
         bpy.data.objects.remove(thing)
     meshes = np.load(os.path.join(folder, "interfaces.npz"))
-    phases = description["phases"]
     for pair in sorted({name.split("/")[0] for name in meshes.files}):
         outer, inner = (phases.get(name) for name in pair.split("|"))
         vertices, triangles = meshes[f"{pair}/vertices"], meshes[f"{pair}/triangles"]
@@ -226,8 +221,22 @@ def main():
                 continue  # No light comes there.
             outer, inner, triangles = inner, outer, triangles[:, ::-1]
         add_mesh(pair, vertices, triangles, material_of(pair, outer, inner))
+
+
+def main():
+    folder, *numbers = sys.argv[sys.argv.index("--") + 1:]
+    width, height, samples, threads, is_processor_time, *seeds = (int(n) for n in numbers)
+    clock = time.process_time if is_processor_time else time.monotonic
+    with open(os.path.join(folder, "scene.json"), encoding="utf-8") as file:
+        description = json.load(file)
+    drink = os.path.join(folder, "drink.blend")
+    if os.path.exists(drink):
+        bpy.ops.wm.open_mainfile(filepath=drink)  # drink.py has made its meshes and materials
+    else:
+        add_interfaces(folder, description["phases"])
     for number, mesh in enumerate(description.get("meshes", [])):
-        add_ground(f"ground {number}", mesh)
+        if "gltf" not in mesh:
+            add_ground(f"ground {number}", mesh)
     for light in description["lights"]:
         add_light(light)
     add_camera(description["camera"])
@@ -239,9 +248,9 @@ def main():
         scene.cycles.seed = seed
         scene.cycles.samples = samples if turn else 1  # The first picture is for the hierarchy and the caches.
         scene.render.filepath = os.path.join(folder, f"cycles.{seed}.exr")
-        start = time.monotonic()
+        start = clock()
         bpy.ops.render.render(write_still=True)
-        seconds.append(time.monotonic() - start)
+        seconds.append(clock() - start)
     with open(os.path.join(folder, "times.json"), "w", encoding="utf-8") as file:
         json.dump(seconds[1:], file)
 

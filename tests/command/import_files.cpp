@@ -130,6 +130,25 @@ TEST_CASE("a scene behind a symbolic link has its meshes beside it, or is reject
     for (const char* const scene : {"same.json", "scene.json"}) CHECK(shell.run({"check", scene}).err == "");
 }
 
+TEST_CASE("clear objects that floats cannot trace are rejected when they are imported") {
+    const Import shell;
+    const auto with_box = [&](float size) {
+        Gltf g;
+        g.node("a", g.mesh(box({0, 0, 0}, {size, size, size}), g.clear("glass", 1.5f)));
+        return g;
+    };
+    const Outcome o = shell.import(with_box(1e-20f));
+    CAPTURE(o.err);
+    CHECK(o.code == 2);
+    CHECK(has(o.err, "in.glb: its clear objects are beyond what 32-bit floats can trace: their diagonal is 1.7e-20 m"));
+    CHECK(shell.entries() == 1);
+    (void)shell.import_well(with_box(1e-10f));
+    // Beside a large object, a tiny one does no harm.
+    Gltf both = with_box(1e-20f);
+    both.node("b", both.mesh(box({0, 0, 0}, {1, 1, 1}), both.clear("ice", 1.31f)));
+    (void)shell.import_well(both);
+}
+
 TEST_CASE("Ctrl-C ends an import, and no file is left") {
     const Import shell;
     Gltf g;

@@ -20,8 +20,8 @@ Use = collections.namedtuple("Use", "file reader list")
 # Programs and modules that tests use where they are installed, and are skipped without.
 OPTIONAL_PROGRAMS = {"blender", "chromium", "chromium-browser", "google-chrome", "groff", "lintian", "setarch", "ninja-build"}
 OPTIONAL_MODULES = {"IPython", "pip", "setuptools", "wheel", "nbconvert"}
-# Scripts beside the tests that make pictures.
-NOT_RUN_BY_TESTS = {"studio_tutorial.py", "pictures.py"}
+# Scripts beside the tests that make pictures, or that are run by hand.
+NOT_RUN_BY_TESTS = {"studio_tutorial.py", "pictures.py", "check_exports.py"}
 # Libraries that CMake takes only where they are installed, and that the lists leave out.
 OPTIONAL_PATHS = re.compile(r"/benchmark/|libbenchmark|OpenImageDenoise")
 

@@ -125,9 +125,15 @@ class TableWriter {
         }
         const bool is_empty = s_.normals[t] == glm::dvec3(0);
         table.push_back(is_empty ? mesh::farthest : static_cast<float>(glm::dot(inward[1], p[1] - p[0])));
-        const double longest =
-            std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
-        table.push_back(static_cast<float>(product_error * longest));
+        std::size_t start = 0;
+        for (std::size_t i = 1; i < 3; ++i)
+            if (glm::distance(p[i], p[(i + 1) % 3]) > glm::distance(p[start], p[(start + 1) % 3])) start = i;
+        const glm::dvec3 longest = p[(start + 1) % 3] - p[start], direction = unit(longest);
+        const double before = glm::dot(direction, p[start] - p[0]);
+        table.push_back(static_cast<float>(product_error * glm::length(longest)));
+        append(table, direction);
+        table.push_back(static_cast<float>(before));
+        table.push_back(static_cast<float>(before + glm::length(longest)));
     }
     void append_edge(const SharedEdge& e, std::vector<float>& table) const {
         const glm::dvec3 a = s_.at(e.ends[0]), along = s_.at(e.ends[1]) - a;

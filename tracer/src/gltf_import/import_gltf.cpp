@@ -53,6 +53,7 @@ class Importer {
                                                      "encloses a volume that could become a phase",
                                                      gltf.string()) +
                                              reasons());
+        require_traceable_size();
     }
 
     ImportedScene make() {
@@ -80,6 +81,18 @@ class Importer {
 
   private:
     void warn(std::string sentence) { made_.warnings.push_back(std::move(sentence)); }
+
+    // Single objects may be smaller.
+    void require_traceable_size() const {
+        if (solids_.empty()) return;
+        const Bounds all = subject_of();
+        const glm::vec3 farthest = glm::max(glm::abs(all.low), glm::abs(all.high));
+        if (all.diagonal() > 1e-15f && std::max({farthest.x, farthest.y, farthest.z}) < 1e15f) return;
+        throw ParameterError("file", fmt::format("{}: its clear objects are beyond what 32-bit floats can trace: their "
+                                                 "diagonal is {:.2g} m, and sizes and positions must be between "
+                                                 "10⁻¹⁵ and 10¹⁵ m; scale the file",
+                                                 gltf_.string(), all.diagonal()));
+    }
 
     std::string reasons() const {
         std::string text;

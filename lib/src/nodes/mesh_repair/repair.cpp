@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "nodes/mesh_repair/arrange.hpp"
+#include <optional>
+#include <utility>
+
 #include "nodes/mesh_repair/holes.hpp"
 #include "nodes/mesh_repair/shells.hpp"
+#include "nodes/mesh_repair/unite_shells.hpp"
 #include "phasetree/model/handle.hpp"
 
 namespace phasetree::mesh {
@@ -24,18 +27,14 @@ Surface repaired(const TriangleMesh& mesh, WindingRule rule, const std::string& 
             name));
     if (rule == WindingRule::winding_number && !chain.triangles.empty()) turn_shells(chain, shells);
     work.tell(0.45f);
-    const std::vector<std::uint32_t> touching_others = arrange(chain, name, work);
-    work.tell(0.7f);
     Chain boundary;
     if (!chain.triangles.empty()) {
-        const std::vector<SideWinding> windings = windings_of(chain);
-        if (!are_confirmed(chain, windings, touching_others))
-            throw ModelError(
-                fmt::format("mesh: {} has parts that lie on each other within rounding and cannot be separated: move "
-                            "one of them by a ten-thousandth of the mesh's size, or remove it",
-                            name));
-        boundary = boundary_of(chain, windings, rule);
+        std::optional<Chain> united;
+        if (rule == WindingRule::winding_number && overlap_often(chain, shells))
+            united = union_of_shells(chain, shells, name, work);
+        boundary = united ? std::move(*united) : arranged_boundary(chain, rule, name, work);
     }
+    work.tell(0.7f);
     if (boundary.triangles.empty())
         throw ModelError(fmt::format(
             "mesh: {} encloses nothing: there are no points around which its triangles wind as its rule requires. Its "

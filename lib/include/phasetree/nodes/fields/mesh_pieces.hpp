@@ -39,21 +39,29 @@ T along(const float* direction, const Vec3<T>& q) {
 }
 
 /// Layout: a corner; the unit normal; for each side, the unit vector in the plane that points inward; the corner's
-/// signed height over the opposite side, which is negative; and the slack by which the face's region extends beyond the
-/// face's sides.
+/// signed height over the opposite side, which is negative; the slack by which the face's region extends beyond the
+/// face's sides; the unit vector along the longest side; and the coordinates of this side's ends along it, relative to
+/// the corner.
 ///
 /// The slack is the rounding error, so that a point straight above a side belongs to the face. The vector from the side
 /// to such a point may be mostly rounding error; as a gradient, it would differ from the normals of all adjacent faces.
+///
+/// Where two sides meet at a small angle, the slack alone would let the region extend far beyond their corner: by the
+/// slack divided by the sine of half of the angle. Such corners are ends of the longest side, so the region is also
+/// limited along that side.
 struct Face {
     static constexpr PieceKind kind = PieceKind::face;
-    static constexpr std::size_t corner = 0, normal = 3, inward = 6, opposite = 15, slack = 16, floats = 17;
+    static constexpr std::size_t corner = 0, normal = 3, inward = 6, opposite = 15, slack = 16, longest = 17,
+                                 ends_of_longest = 20, floats = 22;
 
     template <class T>
     static Told<T> tell(const float* piece, const Vec3<T>& p) {
         const Vec3<T> q = from(piece + corner, p);
         const T height = along(piece + normal, q);
-        const T within = min(along(piece + inward, q),
-                             min(along(piece + inward + 3, q) - piece[opposite], along(piece + inward + 6, q)));
+        const T between_sides = min(along(piece + inward, q),
+                                    min(along(piece + inward + 3, q) - piece[opposite], along(piece + inward + 6, q)));
+        const T t = along(piece + longest, q);
+        const T within = min(between_sides, min(t - piece[ends_of_longest], piece[ends_of_longest + 1] - t));
         return {select(less(within, T(-piece[slack])), T(nowhere), height * height), height};
     }
 };
