@@ -176,8 +176,8 @@ void compare_ray(const Solid& solid, const CellsAlongRay& cells, const Line& lin
     TraceCounters counters;
     const glm::dvec3 o(line.origin), d(line.direction);
     while (const auto next = nearest_crossing(cells, p, line.direction, phase, workspace, counters)) {
-        traced.push_back(glm::dot(0.5 * (glm::dvec3(next->p_in) + glm::dvec3(next->p_out)) - o, d));
-        p = next->p_out;
+        traced.push_back(glm::dot(0.5 * (glm::dvec3(next->p_from) + glm::dvec3(next->p_to)) - o, d));
+        p = next->p_to;
         phase = next->to;
         REQUIRE(traced.size() < 10'000);
     }
