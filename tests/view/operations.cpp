@@ -192,7 +192,7 @@ TEST_CASE("what is impossible is said with its place") {
     CHECK(error_of(text, UnwrapValue{"/of", "/radius"}).find("is not inside") != std::string::npos);
     CHECK(error_of(text, RenameKey{"/radius", "of"}) != "");
     CHECK(error_of(text, RenameKey{"/of/0", "a"}) != "");
-    CHECK(error_of(text, RenameKey{"/radius", "a", true}).find("only phases and shapes") != std::string::npos);
+    CHECK(error_of(text, RenameKey{"/radius", "a", true}).find("only for phases and shapes") != std::string::npos);
 }
 
 }  // namespace test_operations
