@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <stdexcept>
-#include <system_error>
 
 #include "image/kept_images.hpp"
 #include "image/read_image.hpp"
@@ -17,8 +16,6 @@ namespace phasetree::tracer {
 namespace {
 
 constexpr float most = 65535.0f;
-
-thread_local KeptImages* images_of_thread = nullptr;
 
 std::uint16_t stored(float value) {
     // NaN becomes black.
@@ -136,42 +133,6 @@ TextureImage texture_image_in_memory(std::string_view bytes, const std::string& 
         bytes, name, "texture image", [&](const ImageHeader& header) { return taken.begin(header); },
         [&](std::span<const float> values) { taken.add(values); });
     return std::move(taken).image();
-}
-
-KeptImages::Use::Use(KeptImages& images) : before_(std::exchange(images_of_thread, &images)) {}
-
-KeptImages::Use::~Use() {
-    images_of_thread = before_;
-}
-
-KeptImages* KeptImages::of_thread() {
-    return images_of_thread;
-}
-
-// Of a file that cannot be read, the state is arbitrary: loading it throws.
-KeptImages::State KeptImages::state_of(const std::filesystem::path& file) {
-    std::error_code error;
-    return {std::filesystem::last_write_time(file, error), std::filesystem::file_size(file, error)};
-}
-
-std::shared_ptr<const TextureImage> KeptImages::get(const std::filesystem::path& file, ImageMeaning meaning,
-                                                    const Load& load) {
-    return get(std::pair(file.string(), meaning), state_of(file), load);
-}
-
-std::shared_ptr<const TextureImage> KeptImages::get_embedded(const std::string& bytes, ImageMeaning meaning,
-                                                             const Load& load) {
-    return get(std::pair(bytes, meaning), State{}, load);
-}
-
-std::shared_ptr<const TextureImage> KeptImages::get(const std::pair<std::string, ImageMeaning>& key, const State& state,
-                                                    const Load& load) {
-    if (const auto known = images_.find(key); known != images_.end() && known->second.state == state)
-        if (std::shared_ptr<const TextureImage> image = known->second.image.lock()) return image;
-    std::shared_ptr<const TextureImage> image = load();
-    std::erase_if(images_, [](const auto& kept) { return kept.second.image.expired(); });
-    images_[key] = {state, image};
-    return image;
 }
 
 }  // namespace phasetree::tracer

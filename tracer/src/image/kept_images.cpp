@@ -1,0 +1,49 @@
+#include "image/kept_images.hpp"
+
+#include <system_error>
+
+namespace phasetree::tracer {
+
+namespace {
+
+thread_local KeptImages* images_of_thread = nullptr;
+
+}  // namespace
+
+KeptImages::Use::Use(KeptImages& images) : before_(std::exchange(images_of_thread, &images)) {}
+
+KeptImages::Use::~Use() {
+    images_of_thread = before_;
+}
+
+KeptImages* KeptImages::of_thread() {
+    return images_of_thread;
+}
+
+// Of a file that cannot be read, the state is arbitrary: loading it throws.
+KeptImages::State KeptImages::state_of(const std::filesystem::path& file) {
+    std::error_code error;
+    return {std::filesystem::last_write_time(file, error), std::filesystem::file_size(file, error)};
+}
+
+std::shared_ptr<const TextureImage> KeptImages::get(const std::filesystem::path& file, ImageMeaning meaning,
+                                                    const Load& load) {
+    return get(std::pair(file.string(), meaning), state_of(file), load);
+}
+
+std::shared_ptr<const TextureImage> KeptImages::get_embedded(const std::string& bytes, ImageMeaning meaning,
+                                                             const Load& load) {
+    return get(std::pair(bytes, meaning), State{}, load);
+}
+
+std::shared_ptr<const TextureImage> KeptImages::get(const std::pair<std::string, ImageMeaning>& key, const State& state,
+                                                    const Load& load) {
+    if (const auto known = images_.find(key); known != images_.end() && known->second.state == state)
+        if (std::shared_ptr<const TextureImage> image = known->second.image.lock()) return image;
+    std::shared_ptr<const TextureImage> image = load();
+    std::erase_if(images_, [](const auto& kept) { return kept.second.image.expired(); });
+    images_[key] = {state, image};
+    return image;
+}
+
+}  // namespace phasetree::tracer
