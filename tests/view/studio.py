@@ -207,6 +207,19 @@ class Quick(unittest.TestCase):
             view.wait_for(lambda s: is_ready(s) and s["version"] > 0)
             self.assertLess(self.seconds(view) - begun, 4 * PATIENCE)
 
+    def test_a_picture_is_shown_as_the_present_view_says(self):
+        """Display transforms are kept by exposure."""
+        with View() as view:
+            view.ready()
+            pixels = []
+            for name in ("Standard", "Photographic", "Standard"):
+                text = SCENE.replace('"samples": 4}', f'"samples": 4, "view": "{name}"}}')
+                before = view.ready().state["version"]
+                self.assertEqual(edit(view, {"text": text})[0], 200)
+                pixels.append(view.wait_for(lambda s: is_ready(s) and s["version"] > before).pixels)
+            self.assertNotEqual(pixels[0], pixels[1])
+            self.assertEqual(pixels[0], pixels[2])
+
     def test_a_step_does_not_read_images_again_unless_their_files_change(self):
         def write_image(file, value, size=2048):
             row = b"\0" + bytes((value, 64, 255 - value)) * size
