@@ -60,6 +60,8 @@ const double significance_of_each = sidak(1e-4, 13);
 // factor are those of the long form.
 void check_against_directions(Scene scene, std::uint32_t count, double planted_factor = 1.05) {
     count = samples_of(count);
+    // A fifth more, because rare bright paths make the estimated errors vary.
+    const double planted = phasetree::tests::long_tests() ? planted_factor : 1 + 1.2 * (detected(planted_factor) - 1);
     const World world(scene);
     const Moments all = radiance_along(world, scene, along_origin, along_direction, count, 1)[0];
     scene.settings.techniques = Techniques::directions_alone;
@@ -69,7 +71,7 @@ void check_against_directions(Scene scene, std::uint32_t count, double planted_f
     CAPTURE(all.standard_error() / alone.mean());
     CAPTURE(alone.standard_error() / alone.mean());
     CHECK(normal_two_sided((all.mean() - alone.mean()) / error) > significance_of_each);
-    CHECK(normal_two_sided((detected(planted_factor) * all.mean() - alone.mean()) / error) < significance_of_each);
+    CHECK(normal_two_sided((planted * all.mean() - alone.mean()) / error) < significance_of_each);
     // Shadow rays find it, too, and not by luck.
     CHECK(all.variance() < 0.7 * alone.variance());
 }
