@@ -47,6 +47,17 @@ Scene rooms(const std::string& more = "") {
             more + "}");
 }
 
+// The rooms without photons, and their guide, which two test cases share: training it takes longer than either.
+struct GuidedRooms {
+    Scene scene = rooms();
+    World world{scene};
+    std::optional<Guide> guide = guide_for(world, scene);
+};
+const GuidedRooms& guided_rooms() {
+    static const GuidedRooms& made = *new GuidedRooms;
+    return made;
+}
+
 // A ray in the room without a lamp.
 const glm::vec3 in_the_dark(0.3f, -2.5f, 1.4f), to_floor(-0.1f, 1.5f, -1.3f);
 
@@ -155,8 +166,11 @@ TEST_CASE("in the next room paths that are guided find the same light with less 
     const std::uint32_t count = is_long ? 120'000 : 20'000;
     for (const bool with_photons : {false, true}) {
         CAPTURE(with_photons);
-        const Scene scene = rooms(with_photons ? R"(, "caustics": true)" : "");
-        const World world(scene);
+        const Scene scene = with_photons ? rooms(R"(, "caustics": true)") : guided_rooms().scene;
+        std::optional<World> world_of_photons;
+        if (with_photons) world_of_photons.emplace(scene);
+        const World& world = with_photons ? *world_of_photons : guided_rooms().world;
+        std::optional<Guide> guide = guided_rooms().guide;
         std::optional<Caustics> caustics;
         std::optional<PhotonMap> photons;
         PathHelp help;
@@ -165,8 +179,8 @@ TEST_CASE("in the next room paths that are guided find the same light with less 
             caustics.emplace(world, scene);
             photons = caustics->photons(0, counters, [] { return false; });
             help.photons = {&caustics->emission(), &*photons};
+            guide = guide_for(world, scene, &*caustics);
         }
-        const std::optional<Guide> guide = guide_for(world, scene, caustics ? &*caustics : nullptr);
         REQUIRE(guide.has_value());
         const Moments alone = radiance_along(world, scene, in_the_dark, to_floor, count, 1, help)[0];
         help.guide = &*guide;
@@ -226,9 +240,7 @@ TEST_CASE("a guide that is wrong everywhere costs noise within bounds, and no li
 }
 
 TEST_CASE("a guide that knows nothing changes no bit, and a good one does not change recorded albedos") {
-    const Scene scene = rooms();
-    const World world(scene);
-    const std::optional<Guide> guide = guide_for(world, scene);
+    const auto& [scene, world, guide] = guided_rooms();
     const Guide nothing;
     PathCounters counters;
     const phasetree::FlushSubnormals flush;
