@@ -121,7 +121,7 @@ TEST_CASE("labels equal set algebra with each kind of node at the root") {
         Random rng = random_for(4, kind);
         Comparison c;
         CAPTURE(kind.name);
-        for (int tree = 0; tree < (long_tests() ? 60 : 5); ++tree) {
+        for (int tree = 0; tree < (long_tests() ? 60 : 10); ++tree) {
             compare(kind.object(rng, 2 + tree % 3), rng, 256, c);
             CAPTURE(tree);
             REQUIRE_MESSAGE(c.wrong + c.imprecise == 0, c.first);
