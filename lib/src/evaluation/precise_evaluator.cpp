@@ -130,12 +130,12 @@ CarriedSample evaluation::sample_for(const PreciseProgram& program, const glm::d
 }
 
 void evaluation::answer(const PreciseProgram& program, std::span<SampleQuery> queries) {
-    // The time of a batch is about that of three points.
-    constexpr std::size_t least = 3;
-    if (!program.runs_in_batches || queries.size() < least) {
+    if (queries.empty()) return;
+    if (!program.runs_in_batches) {
         for (SampleQuery& q : queries) q.result = sample_for(program, q.point, q.carried);
         return;
     }
+    // A batch costs less than a single point with the scalar interpreter, so it pays off for one point, too.
     struct alignas(64) Lanes {
         double lane[batch_size];
     };
