@@ -273,6 +273,29 @@ TEST_CASE("a plate and a slit 1.2 times as thick as the grid are whole, however 
     CHECK(off * 2000 < vertices);
 }
 
+// Vertices of so thin parts may lie outside their cubes, each on another side of the part than its cube.
+TEST_CASE("parts smaller than the grid are not turned over") {
+    Random rng(11);
+    std::size_t parts = 0, turned = 0, faults = 0;
+    for (int i = 0; i < 1500; ++i) {
+        const Field ball = Sphere{.radius = rng.uniform(0.4f, 1.3f)};
+        const Field disc =
+            Intersection{.of = {ball, Slab{.normal = rng.direction(), .thickness = rng.uniform(0.1f, 0.6f)}}};
+        const Phased object = of(one, warped(Translate{rng.in({glm::vec3(-1), glm::vec3(1)})}, disc));
+        const InterfaceTracer tracer(object);
+        // The grid is that of a larger box, so that discs lie anywhere in its cubes.
+        const PhaseMesh mesh = mesh_of({glm::vec3(-4), glm::vec3(4)}, line_tracer(tracer), {.spacing = 1});
+        if (mesh.triangles.empty()) continue;
+        ++parts;
+        turned += !(volume_of(mesh, one) > 0);
+        faults += faults_of(mesh, PhaseSet::of(one));
+    }
+    MESSAGE(parts, " parts, ", turned, " turned over");
+    CHECK(parts > 300);
+    CHECK(turned == 0);
+    CHECK(faults == 0);
+}
+
 TEST_CASE("what is thinner than the grid is counted") {
     const Phased shell = ThinShell{.of = Sphere{.radius = 1}, .shell = one, .inside = two, .half_thickness = 0.01f};
     const PhaseMesh coarse = meshed(shell, 0.1f), fine = meshed(of(one, Sphere{.radius = 1}), 0.1f);
