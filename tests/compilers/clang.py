@@ -31,7 +31,7 @@ FOR_CLANG = ["-Wno-unknown-warning-option", "-Wno-bitwise-instead-of-logical"]
 SHORT_TARGETS = {"fuzz"}
 MOST_CHANGED = 10
 # Between these two, kernels differ only in their options.
-KERNELS = ("/lib/src/kernel/baseline.cpp", "/lib/src/kernel/avx512.cpp", "/lib/src/kernel/faces.cpp")
+KERNELS = tuple(f"/lib/src/kernel/{name}.cpp" for name in ("baseline", "avx512", "precise_baseline", "precise_avx512", "faces"))
 # Views, and the algorithms that return one.
 VIEW = re.compile(r"\bviews::|ranges::(subrange|unique|remove|partition|stable_partition|rotate|search|equal_range|find_end)\w*\b")
 # Folders whose headers the short form checks, with the target whose options they are checked with.
