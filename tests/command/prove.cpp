@@ -110,6 +110,23 @@ TEST_CASE("measures use the unit and the densities of the scene, and options ove
     CHECK(run(flask(R"("unit": "mm",)", dense), with({"--unit", "cm", "--density", "glass=1"})).out ==
           run(flask(""), with({"--unit", "cm", "--density", "glass=1"})).out);
     CHECK(run(flask(""), coarse).out == run(flask(R"("unit": "m",)"), coarse).out);
+    // The table has the scene's unit. The flask's lengths are the same numbers in each.
+    const auto table = [&](const std::string& unit) {
+        return run(flask(unit, dense), {"measure", "--tolerance", "0.1"}).out;
+    };
+    const std::string in_mm = table(R"("unit": "mm",)"), in_m = table("");
+    CHECK(has(in_mm, " mm³ "));
+    CHECK(has(in_mm, " kg mm² "));
+    CHECK(has(in_mm, "area in mm²"));
+    CHECK_FALSE(has(in_mm, " m "));
+    const auto line_of = [](const std::string& text, const std::string& start) {
+        const std::size_t begin = text.find(start);
+        REQUIRE(begin != std::string::npos);
+        const std::string line = text.substr(begin, text.find('\n', begin) - begin);
+        return line.substr(line.find(" from "));
+    };
+    CHECK(line_of(in_mm, "  largest x") == line_of(in_m, "  largest x"));
+    CHECK(line_of(in_mm, "  mass") != line_of(in_m, "  mass"));
 }
 
 TEST_CASE("files whose unit is fixed have lengths in it") {

@@ -21,6 +21,7 @@
 #include "phasetree/nodes/warps/rotate.hpp"
 #include "phasetree/nodes/warps/translate.hpp"
 #include "phasetree/trace/tracer.hpp"
+#include "support/long_tests.hpp"
 #include "support/manifold.hpp"
 #include "support/random_voxel_lines.hpp"
 
@@ -148,7 +149,7 @@ TEST_CASE("phases that touch share their triangles, and where three meet all hav
 
 TEST_CASE("each phase is a manifold, however its points are mixed") {
     std::size_t triangles = 0;
-    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    for (std::uint64_t seed = 0; seed < (long_tests() ? 40u : 15u); ++seed) {
         const int phases = 2 + static_cast<int>(seed % 5);
         const RandomVoxels voxels{0.1 + 0.02 * static_cast<double>(seed % 4), phases, seed};
         const PhaseMesh mesh = mesh_of(Bounds::centred(glm::vec3(1)), voxels.lines(), {.spacing = 0.1f});
@@ -156,12 +157,12 @@ TEST_CASE("each phase is a manifold, however its points are mixed") {
         CAPTURE(seed);
         for (int p = 0; p < phases; ++p) CHECK(faults_of(mesh, PhaseSet::of(Phase{static_cast<std::uint8_t>(p)})) == 0);
     }
-    CHECK(triangles > 100'000);
+    CHECK(triangles > (long_tests() ? 100'000 : 35'000));
 }
 
 TEST_CASE("random objects have meshes of manifolds whose volumes are theirs") {
     int objects = 0;
-    for (std::uint64_t seed = 1; objects < 25; ++seed) {
+    for (std::uint64_t seed = 1; objects < (long_tests() ? 25 : 10); ++seed) {
         REQUIRE(seed < 400);
         Random rng(seed);
         const Phased object = random_object(rng, 3);

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 
 #include "phasetree/trace/precise_tracer.hpp"
 #include "support/long_tests.hpp"
@@ -50,18 +51,23 @@ PreciseRay from_crossing(Random& rng, const PreciseCrossing& c, const dvec3& d) 
     return ray;
 }
 
-void check_ray(const Phased& object, const PreciseTracer& tracer, const PreciseRay& ray, const Tolerance& tolerance,
-               double exactness, Totals& totals) {
+// Checks rays in one batch, and returns their walks.
+std::vector<Walk> check_rays(const Phased& object, const PreciseTracer& tracer, std::span<const PreciseRay> rays,
+                             const Tolerance& tolerance, double exactness, Totals& totals) {
     const double size = double{tracer.bounds().diagonal()};
-    const double length = glm::distance(ray.origin, dvec3(tracer.bounds().centre())) + size;
-    const std::vector<analytic::Piece> exact = exact_pieces(object, ray.origin, ray.direction, length);
-    ++totals.rays;
-    const Walk walk = walks::walked(tracer, ray), again = walks::restarted(tracer, ray);
-    for (const Walk& w : {walk, again}) {
-        walks::check_brackets(tracer, w, ray.origin, ray.direction, totals);
-        walks::compare(object, w, exact, ray.origin, ray.direction, length, tolerance, totals);
+    const std::vector<Walk> walks = walks::walked(tracer, rays), again = walks::restarted(tracer, rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const dvec3 &o = rays[i].origin, &d = rays[i].direction;
+        const double length = glm::distance(o, dvec3(tracer.bounds().centre())) + size;
+        const std::vector<analytic::Piece> exact = exact_pieces(object, o, d, length);
+        ++totals.rays;
+        for (const Walk& w : {std::cref(walks[i]), std::cref(again[i])}) {
+            walks::check_brackets(tracer, w, o, d, totals);
+            walks::compare(object, w, exact, o, d, length, tolerance, totals);
+        }
+        walks::compare_isolated(object, walks[i], exact, o, d, size, exactness, totals);
     }
-    walks::compare_isolated(object, walk, exact, ray.origin, ray.direction, size, exactness, totals);
+    return walks;
 }
 
 void check_scene(const Scene& scene, Random& rng, int rays, bool is_exact, Totals& totals) {
@@ -78,25 +84,38 @@ void check_scene(const Scene& scene, Random& rng, int rays, bool is_exact, Total
         is_exact ? 1e-12 * size : 1e-6 * std::max(size, double{glm::length(tracer.bounds().centre())});
     const Tolerance tolerance{std::max(4 * tracer.resolution(), exactness),
                               std::max(100 * tracer.value_error(), exactness)};
-    for (int k = 0; k < rays; ++k) {
-        const traced::Probe probe = traced::random_probe(rng, scene, *floats);
-        const PreciseRay ray{dvec3(probe.o), glm::normalize(dvec3(probe.d))};
-        check_ray(scene.object, tracer, ray, tolerance, exactness, totals);
-        const auto crossing = tracer.first_crossing(ray);
-        if (crossing)
-            check_ray(scene.object, tracer, from_crossing(rng, *crossing, ray.direction), tolerance, exactness, totals);
+    const auto check = [&](std::span<const PreciseRay> some) {
+        return check_rays(scene.object, tracer, some, tolerance, exactness, totals);
+    };
+    constexpr int block = 64;
+    for (int begin = 0; begin < rays; begin += block) {
+        std::vector<PreciseRay> first, second;
+        for (int k = begin; k < std::min(begin + block, rays); ++k) {
+            const traced::Probe probe = traced::random_probe(rng, scene, *floats);
+            first.push_back({dvec3(probe.o), glm::normalize(dvec3(probe.d))});
+        }
+        const std::vector<Walk> walks = check(first);
+        for (std::size_t i = 0; i < first.size(); ++i)
+            if (!walks[i].crossings.empty())
+                second.push_back(from_crossing(rng, walks[i].crossings[0], first[i].direction));
+        check(second);
     }
+}
+
+int number_from_environment(const char* name, int otherwise) {
+    const char* const text = std::getenv(name);
+    return text ? std::max(0, std::atoi(text)) : otherwise;
 }
 
 // Checks rays through 100 scenes, which scene(number, random numbers) makes.
 template <class MakeScene>
 Totals check_scenes(std::uint64_t seed, int rays_in_short_form, bool is_exact, MakeScene&& scene) {
-    const char* const chosen = std::getenv("PHASETREE_RAYS_PER_TREE");
-    const int rays = chosen ? std::max(1, std::atoi(chosen)) : long_tests() ? 120'000 : rays_in_short_form;
+    const int rays = number_from_environment("PHASETREE_RAYS_PER_TREE", long_tests() ? 120'000 : rays_in_short_form);
+    const auto part = static_cast<std::uint64_t>(number_from_environment("PHASETREE_PART_OF_RAYS", 0));
     std::vector<Totals> each(100);
     tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t n) {
-        Random rng(1000 * seed + n);
-        check_scene(scene(static_cast<int>(n), rng), rng, rays, is_exact, each[n]);
+        Random for_scene(1000 * seed + n), for_rays(1'000'000'007 * part + 2000 * seed + n);
+        check_scene(scene(static_cast<int>(n), for_scene), for_rays, rays, is_exact, each[n]);
     });
     Totals all;
     for (const Totals& t : each) all.add(t);
@@ -112,12 +131,13 @@ void report(const char* what, const Totals& t) {
 
 }  // namespace
 
-// The long form has 10⁸ crossings in 200 trees, counting those of restarted walks, and takes about three hours of
-// processor time. Run it outside CTest on a machine with few cores, because CTest ends after an hour:
+// The long form has 10⁸ crossings in 200 trees, counting those of restarted walks. CTest ends tests after an hour, so
+// run it by itself:
 //
 //     PHASETREE_LONG_TESTS=1 build/release/tests/test-lib -sf='*/precise_crossings.cpp' -tc='no crossing*,nor in*'
 //
-// PHASETREE_RAYS_PER_TREE=N runs another part of it: the first N of the 120,000 rays of each tree.
+// It can also be run in parts: PHASETREE_RAYS_PER_TREE=N takes N rays for each tree instead of 120,000, and
+// PHASETREE_PART_OF_RAYS=K takes other rays through the same trees for each K.
 TEST_CASE("no crossing is lost or found twice in trees with exact constants") {
     const Totals totals = check_scenes(401, 50, true, [](int, Random& rng) { return exact_scene(rng); });
     report("exact constants", totals);

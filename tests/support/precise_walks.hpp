@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
@@ -121,30 +122,56 @@ struct Walk {
     }
 };
 
-/// All crossings along a ray in one call.
+/// All crossings along rays in one call.
+inline std::vector<Walk> walked(const PreciseTracer& tracer, std::span<const PreciseRay> rays) {
+    const auto found = tracer.crossings(rays);
+    std::vector<Walk> walks(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        walks[i] = {found->start[i],
+                    {found->crossings.begin() + static_cast<std::ptrdiff_t>(found->offsets[i]),
+                     found->crossings.begin() + static_cast<std::ptrdiff_t>(found->offsets[i + 1])}};
+    return walks;
+}
 inline Walk walked(const PreciseTracer& tracer, const PreciseRay& ray) {
-    const auto found = tracer.crossings(std::span(&ray, 1));
-    return {found->start[0], found->crossings};
+    return walked(tracer, std::span(&ray, 1)).front();
 }
 
-/// The same by one call per crossing, each from the far end of the last.
-inline Walk restarted(const PreciseTracer& tracer, PreciseRay ray) {
-    Walk walk{tracer.evaluator().label(ray.origin), {}};
-    if (!tracer.bounds().contains(glm::vec3(ray.origin))) walk.start = vacuum;
-    if (ray.carried) walk.start = *ray.carried;
-    const double end = ray.t_max;
-    double behind = 0;
-    while (auto c = tracer.first_crossing(ray)) {
-        ray.origin = c->p_to;
-        ray.carried = c->to;
-        c->t_from += behind;
-        c->t_to += behind;
-        behind = c->t_to;
-        ray.t_max = end - behind;
-        walk.crossings.push_back(*c);
-        if (walk.crossings.size() > 100'000) break;
+/// The same by one search per crossing, each from the far end of the last.
+inline std::vector<Walk> restarted(const PreciseTracer& tracer, std::span<const PreciseRay> rays) {
+    std::vector<Walk> walks(rays.size());
+    std::vector<PreciseRay> going(rays.begin(), rays.end());
+    std::vector<std::size_t> number(rays.size());  // of the rays that go on
+    std::vector<double> behind(rays.size(), 0.0);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        number[i] = i;
+        walks[i].start = tracer.evaluator().label(rays[i].origin);
+        if (!tracer.bounds().contains(glm::vec3(rays[i].origin))) walks[i].start = vacuum;
+        if (rays[i].carried) walks[i].start = *rays[i].carried;
     }
-    return walk;
+    std::vector<std::optional<PreciseCrossing>> found;
+    for (int count = 0; !going.empty() && count < 100'000; ++count) {
+        found.assign(going.size(), std::nullopt);
+        tracer.first_crossings(going, found);
+        std::size_t left = 0;
+        for (std::size_t k = 0; k < going.size(); ++k) {
+            if (!found[k]) continue;
+            PreciseCrossing c = *found[k];
+            const std::size_t i = number[k];
+            PreciseRay ray = going[k];
+            ray.origin = c.p_to;
+            ray.carried = c.to;
+            c.t_from += behind[i];
+            c.t_to += behind[i];
+            behind[i] = c.t_to;
+            ray.t_max = rays[i].t_max - behind[i];
+            walks[i].crossings.push_back(c);
+            going[left] = ray;
+            number[left++] = i;
+        }
+        going.resize(left);
+        number.resize(left);
+    }
+    return walks;
 }
 
 /// Compares a walk with the exact pieces of its ray. The direction is of unit length.

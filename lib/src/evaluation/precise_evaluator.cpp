@@ -1,5 +1,6 @@
 #include "phasetree/evaluation/precise_evaluator.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -7,6 +8,8 @@
 #include "evaluation/in_blocks.hpp"
 #include "evaluation/interpret.hpp"
 #include "evaluation/precise_program.hpp"
+#include "evaluation/target.hpp"
+#include "kernel/precise_kernel.hpp"
 #include "math/precise.hpp"
 #include "phasetree/math/float_mode.hpp"
 #include "program/op_traits.hpp"
@@ -92,17 +95,21 @@ PreciseEvaluator::PreciseEvaluator(const Phased& object) {
     const std::size_t before = searches_in_floats();
     run<0>(*made, glm::dvec3(0));  // runs every instruction, whatever the point
     made->searches_in_floats = searches_in_floats() != before;
+    made->runs_in_batches = !made->searches_in_floats && kernel::can_run_precisely(made->routine());
     // A factor or unit vector in floats is off by less than 2.5·10⁻⁷ of it. Slopes multiply along a path.
     made->lipschitz_excess = 2.5e-7 * static_cast<double>(2 + depth_of(made->program));
     program_ = std::move(made);
 }
 
-CarriedSample evaluation::sample_for(const PreciseProgram& program, const glm::dvec3& p, Phase carried) {
+namespace {
+
+// Finds the label and distances from the components, value(output).
+template <class Value>
+CarriedSample classified(const PreciseProgram& program, Phase carried, Value&& value) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const Precise<0>* registers = run<0>(program, p);
     CarriedSample result{{vacuum, infinity, infinity}, infinity};
     for (const OutputSlot& o : program.assembly.outputs) {
-        const double v = registers[o.slot].value() * static_cast<double>(o.sign);
+        const double v = value(o) * static_cast<double>(o.sign);
         if (o.phase == static_cast<float>(carried.index)) result.component = v;
         if (v < result.own) {
             result.interface_distance = result.own;
@@ -113,6 +120,34 @@ CarriedSample evaluation::sample_for(const PreciseProgram& program, const glm::d
         }
     }
     return result;
+}
+
+}  // namespace
+
+CarriedSample evaluation::sample_for(const PreciseProgram& program, const glm::dvec3& p, Phase carried) {
+    const Precise<0>* registers = run<0>(program, p);
+    return classified(program, carried, [&](const OutputSlot& o) { return registers[o.slot].value(); });
+}
+
+void evaluation::answer(const PreciseProgram& program, std::span<SampleQuery> queries) {
+    if (queries.empty()) return;
+    if (!program.runs_in_batches) {
+        for (SampleQuery& q : queries) q.result = sample_for(program, q.point, q.carried);
+        return;
+    }
+    // A batch costs less than a single point with the scalar interpreter, so it pays off for one point, too.
+    struct alignas(64) Lanes {
+        double lane[batch_size];
+    };
+    thread_local std::vector<Lanes> registers;
+    if (registers.size() < program.assembly.slots) registers.resize(program.assembly.slots);
+    for (std::size_t k = 0; k < batch_size; ++k)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            registers[axis].lane[k] = queries[std::min(k, queries.size() - 1)].point[static_cast<int>(axis)];
+    kernel::run_precisely_for(active_kernel())(program.routine(), registers.front().lane);
+    for (std::size_t k = 0; k < queries.size(); ++k)
+        queries[k].result =
+            classified(program, queries[k].carried, [&](const OutputSlot& o) { return registers[o.slot].lane[k]; });
 }
 
 std::vector<double> evaluation::values_at(const PreciseProgram& program, const glm::dvec3& p) {

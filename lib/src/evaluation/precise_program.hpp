@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "evaluation/assemble.hpp"
 #include "phasetree/evaluation/precise_evaluator.hpp"
 
@@ -10,6 +12,7 @@ struct PreciseProgram {
     Program program;
     Assembly assembly;
     bool searches_in_floats = false;
+    bool runs_in_batches = false;  ///< whether batches of points can be run together (kernel/precise_kernel.hpp)
     double lipschitz_excess = 0;
 
     Routine routine() const { return assembly.routine(program.constants.data()); }
@@ -20,6 +23,14 @@ struct CarriedSample : PreciseSample {
     double component = 0;  ///< of the carried phase; infinite if it is absent
 };
 CarriedSample sample_for(const PreciseProgram&, const glm::dvec3& p, Phase carried);
+
+/// The same for at most eight points. The results are the same, bit for bit.
+struct SampleQuery {
+    glm::dvec3 point;
+    Phase carried;
+    CarriedSample result;
+};
+void answer(const PreciseProgram&, std::span<SampleQuery>);
 
 /// The numbers that the steps of a program compute at a point: in the order of the steps, the coordinates of a point as
 /// three numbers.

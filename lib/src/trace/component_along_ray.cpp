@@ -5,6 +5,7 @@
 
 #include "bounding/enclose_primitive.hpp"
 #include "evaluation/interpret.hpp"
+#include "math/precise.hpp"
 #include "program/op_traits.hpp"
 
 namespace phasetree::trace {
@@ -58,12 +59,9 @@ template <class P>
 void tighten_by_convexity(const float* constants, const Vec3<Enclosure>& q, double half, Enclosure& f) {
     if (!enclosure::detail::are_affine<3>({&q.x, &q.y, &q.z})) return;
     const auto at = [&](double t) {
-        const auto coordinate = [t](const Enclosure& e) {
-            const double x = e.centre + t * e.gradient[0].low;
-            return Enclosure(x, {x, x}, {}, {}, {});
-        };
-        return program::distance_of<P>(constants, Vec3<Enclosure>{coordinate(q.x), coordinate(q.y), coordinate(q.z)})
-            .centre;
+        const auto coordinate = [t](const Enclosure& e) { return Precise<0>(e.centre + t * e.gradient[0].low); };
+        return program::distance_of<P>(constants, Vec3<Precise<0>>{coordinate(q.x), coordinate(q.y), coordinate(q.z)})
+            .value();
     };
     const double length = 2 * half, begin = at(-half), end = at(half);
     const double falls = std::min(begin - at(-half - length), 0.0), rises = std::max(at(half + length) - end, 0.0);

@@ -69,11 +69,7 @@ PreciseMarch::PreciseMarch(const PreciseTracer& tracer, const PreciseRay& ray)
     end_ = end - near;
     // Two units in the last place of any coordinate and of any distance along the ray.
     finest_ = 0x1p-51 * std::max(farthest_coordinate_of(tracer.bounds()), end_);
-    if (!ray.carried) carried_ = at(0).phase;
-}
-
-PreciseMarch::Sample PreciseMarch::at(double t) const {
-    return {evaluation::sample_for(tracer_.evaluator().program(), point(t), carried_), t, carried_};
+    if (!ray.carried) carried_ = evaluation::sample_for(tracer_.evaluator().program(), start_, carried_).phase;
 }
 
 // The length within which the phase certainly does not change.
@@ -83,43 +79,106 @@ double PreciseMarch::step_from(const Sample& s) const {
 }
 
 std::optional<PreciseCrossing> PreciseMarch::next() {
-    if (!(t_ <= end_)) return std::nullopt;
-    Sample a = at(t_);
-    if (!is_in(a)) return report_crossing(a, a);
+    begin();
+    while (const Request* r = request())
+        take(evaluation::sample_for(tracer_.evaluator().program(), r->point, r->carried));
+    return found_;
+}
+
+void PreciseMarch::begin() {
+    found_.reset();
+    if (t_ <= end_)
+        ask(Stage::start, t_);
+    else
+        stage_ = Stage::ended;
+}
+
+void PreciseMarch::ask(Stage stage, double t) {
+    stage_ = stage;
+    requested_t_ = t;
+    request_ = {point(t), carried_};
+}
+
+void PreciseMarch::take(const CarriedSample& values) {
+    const Sample s{values, requested_t_, carried_};
+    switch (stage_) {
+        case Stage::start:
+            start_from(s);
+            break;
+        case Stage::stretch:
+            if (!is_in(s)) return take_step();  // a contradiction by rounding: samples decide
+            at_ = s;
+            if (s.has_carried_label()) labelled_ = s;
+            go_on();
+            break;
+        case Stage::long_step:
+            if (s.has_carried_label() && step_ + step_from(s) >= s.t - at_.t)
+                arrive(s);
+            else
+                ask(Stage::step, std::min(at_.t + step_, end_));
+            break;
+        case Stage::step:
+            arrive(s);
+            break;
+        case Stage::bisection:
+            was_low_ = s.phase != sought_;
+            (was_low_ ? low_ : high_) = s;
+            ++bisections_;
+            bisect();
+            break;
+        case Stage::ended:
+            break;
+    }
+}
+
+void PreciseMarch::start_from(const Sample& s) {
+    if (!is_in(s)) return report_crossing(s, s);
     labelled_.reset();
-    if (a.has_carried_label()) labelled_ = a;
+    if (s.has_carried_label()) labelled_ = s;
     slope_ = -1;
     samples_ = slow_steps_ = 0;
     wait_ = first_wait;
     shortest_ = resolution_;
-    while (a.t < end_) {
-        if (++samples_ >= wait_ && pass_enclosed(a)) continue;
-        const double step = step_from(a);
-        count_slow_steps(step);
-        const Sample b = step >= shortest_ ? step_surely(a, step) : at(std::min(a.t + shortest_, end_));
-        if (!is_in(b)) {
-            const bool is_near = labelled_ && b.t - labelled_->t <= near_in_steps * shortest_;
-            return crossing_between(is_near ? *labelled_ : a, b);
-        }
-        if (b.has_carried_label()) labelled_ = b;
-        if (!(b.t > a.t)) break;  // the end of the ray is within rounding
-        // How fast the interface distance changes; limited, so that steps do not grow without bounds.
-        slope_ = std::clamp((b.interface_distance - a.interface_distance) / (b.t - a.t), -1.0, 0.9);
-        a = b;
-    }
+    at_ = s;
+    go_on();
+}
+
+// Goes on from the last sample, if the ray does not end there.
+void PreciseMarch::go_on() {
+    if (!(at_.t < end_)) return end_search();
+    if (++samples_ < wait_ || !enclose_stretches()) take_step();
+}
+
+void PreciseMarch::end_search() {
+    stage_ = Stage::ended;
     t_ = std::numeric_limits<double>::infinity();
-    return std::nullopt;
 }
 
 // Takes a step of a length that is known to be safe. First tries a longer one, guessed from how the interface distance
 // changed in the last step: it is safe, too, if the safe lengths at its two ends together cover it.
-PreciseMarch::Sample PreciseMarch::step_surely(const Sample& a, double step) const {
-    const double covered = 1.9 * step / (1 - slope_);
-    if (covered > 1.1 * step) {
-        const Sample b = at(std::min(a.t + covered, end_));
-        if (b.has_carried_label() && step + step_from(b) >= b.t - a.t) return b;
+void PreciseMarch::take_step() {
+    step_ = step_from(at_);
+    count_slow_steps(step_);
+    if (!(step_ >= shortest_)) return ask(Stage::step, std::min(at_.t + shortest_, end_));
+    const double covered = 1.9 * step_ / (1 - slope_);
+    if (covered > 1.1 * step_)
+        ask(Stage::long_step, std::min(at_.t + covered, end_));
+    else
+        ask(Stage::step, std::min(at_.t + step_, end_));
+}
+
+// The next sample after a step.
+void PreciseMarch::arrive(const Sample& s) {
+    if (!is_in(s)) {
+        const bool is_near = labelled_ && s.t - labelled_->t <= near_in_steps * shortest_;
+        return bracket(is_near ? *labelled_ : at_, s);
     }
-    return at(std::min(a.t + step, end_));
+    if (s.has_carried_label()) labelled_ = s;
+    if (!(s.t > at_.t)) return end_search();  // the end of the ray is within rounding
+    // How fast the interface distance changes; limited, so that steps do not grow without bounds.
+    slope_ = std::clamp((s.interface_distance - at_.interface_distance) / (s.t - at_.t), -1.0, 0.9);
+    at_ = s;
+    go_on();
 }
 
 // Lengthens the steps of a ray that makes no headway.
@@ -132,9 +191,9 @@ void PreciseMarch::count_slow_steps(double step) {
     }
 }
 
-// Moves a sample to the end of stretches on which no other phase is deeper than rounding errors. Their length doubles
-// while that is proven, and is reduced where it is not. Returns whether any was proven.
-bool PreciseMarch::pass_enclosed(Sample& a) {
+// Asks for the sample at the end of stretches on which no other phase is deeper than rounding errors. Their length
+// doubles while that is proven, and is reduced where it is not. Returns whether any was proven.
+bool PreciseMarch::enclose_stretches() {
     samples_ = 0;
     const double error = tracer_.enclosure_error();
     if (!(error < std::numeric_limits<double>::infinity())) return false;
@@ -142,64 +201,60 @@ bool PreciseMarch::pass_enclosed(Sample& a) {
         component_.emplace(routine_, start_, direction_, static_cast<float>(carried_.index));
         component_of_ = carried_;
     }
-    const double unit = std::max(resolution_, step_from(a));
-    double end = a.t;
+    const double unit = std::max(resolution_, step_from(at_));
+    double end = at_.t;
     for (double length = first_stretch * unit; end < end_ && length >= shortest_stretch * unit;) {
         const double next = std::min(end + length, end_);
         const bool is_in_phase = component_->upper_bound(end, next, 0.1 * value_error_) < value_error_ - error;
         if (is_in_phase) end = next;
         length *= is_in_phase ? 2 : 0.25;
     }
-    if (!(end > a.t)) {
+    if (!(end > at_.t)) {
         wait_ = std::min(2 * wait_, longest_wait);
         return false;
     }
     wait_ = first_wait;
-    const Sample b = at(end);
-    if (!is_in(b)) return false;  // a contradiction by rounding: samples decide
-    a = b;
-    if (a.has_carried_label()) labelled_ = a;
+    ask(Stage::stretch, end);
     return true;
 }
 
-// The crossing between two samples. `low` is in the ray's phase, `high` is certainly not. Where other phases are less
-// deep than rounding errors, as along edges and within shared faces, labels near the crossing mean little. So the
+// Finds the crossing between two samples. `low` is in the ray's phase, `high` is certainly not. Where other phases are
+// less deep than rounding errors, as along edges and within shared faces, labels near the crossing mean little. So the
 // bracket is placed where the label of `high` begins, not where the ray's label ends. If a sample just before that is
 // certainly in a third phase, the start of that phase is bracketed instead.
-PreciseCrossing PreciseMarch::crossing_between(const Sample& low, Sample high) {
-    for (;;) {
-        const auto [before, after] = begin_of_label(low, high);
-        if (is_in(before)) return report_crossing(before, after);
-        high = before;
-    }
+void PreciseMarch::bracket(const Sample& low, const Sample& high) {
+    low_ = lowest_ = low;
+    high_ = high;
+    sought_ = high.phase;
+    bisections_ = 0;
+    was_low_ = false;
+    bisect();
 }
 
-// Two adjacent samples between `low` and `high`, of which only the second has the label of `high`.
-std::pair<PreciseMarch::Sample, PreciseMarch::Sample> PreciseMarch::begin_of_label(Sample low, Sample high) const {
-    const Phase sought = high.phase;
-    bool was_low = false;  // whether the last sample replaced `low`
-    for (int n = 0; high.t - low.t > finest_; ++n) {
-        const double middle = 0.5 * (low.t + high.t);
+// Goes on until `low_` and `high_` are adjacent, and only the second has the label that is sought.
+void PreciseMarch::bisect() {
+    if (high_.t - low_.t > finest_) {
+        const double middle = 0.5 * (low_.t + high_.t);
         double t = middle;
-        if (n % 4 != 3 && high.component > low.component) {
+        if (bisections_ % 4 != 3 && high_.component > low_.component) {
             // Interpolation. The sample is moved a little towards the end that was not replaced last, so that both ends
             // approach the crossing.
-            const double share = -low.component / (high.component - low.component);
-            const double zero = low.t + std::clamp(share, 0.0, 1.0) * (high.t - low.t);
-            const double beyond = std::max(finest_, 1e-3 * std::min(high.t - zero, zero - low.t));
-            t = std::clamp(was_low ? zero + beyond : zero - beyond, low.t, high.t);
-            if (!(t > low.t && t < high.t)) t = middle;
+            const double share = -low_.component / (high_.component - low_.component);
+            const double zero = low_.t + std::clamp(share, 0.0, 1.0) * (high_.t - low_.t);
+            const double beyond = std::max(finest_, 1e-3 * std::min(high_.t - zero, zero - low_.t));
+            t = std::clamp(was_low_ ? zero + beyond : zero - beyond, low_.t, high_.t);
+            if (!(t > low_.t && t < high_.t)) t = middle;
         }
-        if (!(t > low.t && t < high.t)) break;
-        const Sample s = at(t);
-        was_low = s.phase != sought;
-        (was_low ? low : high) = s;
+        if (t > low_.t && t < high_.t) return ask(Stage::bisection, t);
     }
-    return {low, high};
+    if (is_in(low_))
+        report_crossing(low_, high_);
+    else
+        bracket(Sample(lowest_), Sample(low_));
 }
 
-// Makes the crossing with this bracket, and continues the search from its far end, in the phase there.
-PreciseCrossing PreciseMarch::report_crossing(const Sample& in, const Sample& out) {
+// Makes the crossing with this bracket. The next search begins at its far end, in the phase there.
+void PreciseMarch::report_crossing(const Sample& in, const Sample& out) {
     PreciseCrossing c;
     c.t_from = (skipped_ + in.t) / length_;
     c.t_to = (skipped_ + out.t) / length_;
@@ -210,7 +265,8 @@ PreciseCrossing PreciseMarch::report_crossing(const Sample& in, const Sample& ou
     c.normal = normal(in.t, out.t, c.to);
     carried_ = c.to;
     t_ = out.t;
-    return c;
+    found_ = c;
+    stage_ = Stage::ended;
 }
 
 // The gradients of the components on both sides, at the bracket's ends and a resolution before and after it. The first

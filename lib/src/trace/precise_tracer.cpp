@@ -1,11 +1,15 @@
 #include "phasetree/trace/precise_tracer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "evaluation/in_blocks.hpp"
+#include "phasetree/program/batch.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "phasetree_support/split_mix64.hpp"
 #include "trace/precise_march.hpp"
@@ -53,6 +57,55 @@ double measured_difference(const PreciseProgram& program, const Bounds& bounds) 
     return most;
 }
 
+// Traces rays `begin` to `end` in one thread, as many at a time as a batch of samples has lanes. Calls started(ray,
+// phase) with the phase in which a ray starts, and crossed(ray, crossing) with each of its crossings, or nullopt at its
+// end. A ray goes on while that returns true.
+template <class Started, class Crossed>
+void march_together(const PreciseTracer& tracer, std::span<const PreciseRay> rays, std::size_t begin, std::size_t end,
+                    Started&& started, Crossed&& crossed) {
+    std::array<std::optional<PreciseMarch>, batch_size> marches;  // a march cannot be moved
+    std::array<std::size_t, batch_size> ray_of{}, slots{};        // the first `active` slots are in use
+    std::array<evaluation::SampleQuery, batch_size> queries;
+    std::size_t active = 0, next = begin;
+    std::iota(slots.begin(), slots.end(), std::size_t{0});
+    // Starts the next ray that does not end at once. Returns false if there is none.
+    const auto start_in = [&](std::size_t slot) {
+        for (; next < end; ++next) {
+            marches[slot].emplace(tracer, rays[next]);
+            started(next, marches[slot]->phase());
+            marches[slot]->begin();
+            if (marches[slot]->request()) {
+                ray_of[slot] = next++;
+                return true;
+            }
+            crossed(next, std::nullopt);
+        }
+        return false;
+    };
+    // Goes on with the ray of a slot, or with another one. Returns false if there is none.
+    const auto go_on_in = [&](std::size_t slot) {
+        PreciseMarch& march = *marches[slot];
+        while (!march.request()) {
+            if (!crossed(ray_of[slot], march.found()) || !march.found()) return start_in(slot);
+            march.begin();
+        }
+        return true;
+    };
+    while (active < batch_size && start_in(active)) ++active;
+    while (active > 0) {
+        for (std::size_t k = 0; k < active; ++k) {
+            const PreciseMarch::Request& request = *marches[slots[k]]->request();
+            queries[k].point = request.point;
+            queries[k].carried = request.carried;
+        }
+        evaluation::answer(tracer.evaluator().program(), std::span(queries).first(active));
+        for (std::size_t k = active; k-- > 0;) {
+            marches[slots[k]]->take(queries[k].result);
+            if (!go_on_in(slots[k])) std::swap(slots[k], slots[--active]);
+        }
+    }
+}
+
 }  // namespace
 
 PreciseTracer::PreciseTracer(const Phased& object, double resolution)
@@ -81,7 +134,12 @@ bool PreciseTracer::first_crossings(std::span<const PreciseRay> rays, std::span<
                                     const std::function<bool()>& cancelled) const {
     if (found.size() != rays.size()) throw std::invalid_argument("there must be as many results as rays");
     return in_blocks(rays.size(), precise_rays, cancelled, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) found[i] = PreciseMarch(*this, rays[i]).next();
+        march_together(
+            *this, rays, begin, end, [](std::size_t, Phase) {},
+            [&](std::size_t ray, const std::optional<PreciseCrossing>& c) {
+                found[ray] = c;
+                return false;
+            });
     });
 }
 
@@ -92,13 +150,17 @@ std::optional<PreciseCrossings> PreciseTracer::crossings(std::span<const Precise
     all.offsets.resize(rays.size() + 1);
     std::vector<std::vector<PreciseCrossing>> blocks((rays.size() + precise_rays - 1) / precise_rays);
     const bool is_complete = in_blocks(rays.size(), precise_rays, cancelled, [&](std::size_t begin, std::size_t end) {
-        std::vector<PreciseCrossing>& found = blocks[begin / precise_rays];
+        std::vector<std::vector<PreciseCrossing>> found(end - begin);
+        march_together(
+            *this, rays, begin, end, [&](std::size_t ray, Phase phase) { all.start[ray] = phase; },
+            [&](std::size_t ray, const std::optional<PreciseCrossing>& c) {
+                if (c) found[ray - begin].push_back(*c);
+                return c.has_value();
+            });
+        std::vector<PreciseCrossing>& block = blocks[begin / precise_rays];
         for (std::size_t i = begin; i < end; ++i) {
-            PreciseMarch march(*this, rays[i]);
-            all.start[i] = march.phase();
-            const std::size_t before = found.size();
-            while (const auto c = march.next()) found.push_back(*c);
-            all.offsets[i + 1] = found.size() - before;
+            block.insert(block.end(), found[i - begin].begin(), found[i - begin].end());
+            all.offsets[i + 1] = found[i - begin].size();
         }
     });
     if (!is_complete) return std::nullopt;

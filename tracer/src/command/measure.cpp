@@ -125,7 +125,7 @@ int measure_scene(const SceneFile& file, const MeasureCommand& chosen) {
         w.high *= unit.metres;
         if (w.place) *w.place *= static_cast<float>(unit.metres);
     }
-    const MeasureReport report{file.shown(), tree.phases, result, areas, walls};
+    const MeasureReport report{file.shown(), unit, tree.phases, result, areas, walls};
     if (chosen.as_json)
         print_json(report);
     else
@@ -144,9 +144,9 @@ void add_measure(CLI::App& app, Run& run) {
         "of inertia and bounding boxes are guaranteed to lie in their intervals. Areas are statistical\n"
         "estimates with a standard error.\n"
         "\n"
-        "Printed lengths are in metres and masses in kilograms, whatever the unit of the scene is. With\n"
-        "several objects, their union is measured; --object chooses one. Ctrl-C prints what is known so\n"
-        "far.\n"
+        "Lengths, areas and volumes are printed in the scene's unit, masses in kilograms. JSON has metres\n"
+        "and kilograms, whatever the unit of the scene is. With several objects, their union is measured;\n"
+        "--object chooses one. Ctrl-C prints what is known so far.\n"
         "\n"
         "The whole scene file is checked, but it may lack a camera and lights, and the files of\n"
         "lights, meshes, textures and media are not opened.");

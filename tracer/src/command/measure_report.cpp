@@ -36,36 +36,63 @@ bool is_known(const Measured& m) {
     return std::isfinite(m.low) && std::isfinite(m.high);
 }
 
+// A printed unit: its name, and its size in SI units.
+struct PrintedUnit {
+    std::string name;
+    double size = 1;
+};
+
+// The units of the table, which follow from the scene's unit of length.
+struct TableUnits {
+    explicit TableUnits(const LengthUnit& u)
+        : length{std::string(u.name), u.metres},
+          area{fmt::format("{}²", u.name), std::pow(u.metres, 2)},
+          volume{fmt::format("{}³", u.name), std::pow(u.metres, 3)},
+          inertia{fmt::format("kg {}²", u.name), std::pow(u.metres, 2)},
+          inertia_without_density{fmt::format("{}⁵", u.name), std::pow(u.metres, 5)} {}
+
+    PrintedUnit length, area, volume, mass{"kg"}, inertia, inertia_without_density;
+};
+
 // One line: what it is, the estimate, and the interval.
-void print(std::string_view what, const Measured& m, std::string_view unit) {
+void print(std::string_view what, const Measured& m, const PrintedUnit& unit) {
     if (!is_known(m)) return put("  {:<18}unknown\n", what);
-    put("  {:<18}{:>14.7g} {:<6} from {:.9g} to {:.9g}\n", what, m.estimate, unit, m.low, m.high);
+    put("  {:<18}{:>14.7g} {:<6} from {:.9g} to {:.9g}\n", what, m.estimate / unit.size, unit.name, m.low / unit.size,
+        m.high / unit.size);
 }
 
-void print_inertia(const Body& body, bool has_density) {
+void print_body(const Body& body, bool has_density, const TableUnits& units) {
+    print("volume", body.volume, units.volume);
+    if (has_density) print("mass", body.mass, units.mass);
+    for (std::size_t i = 0; i < 3; ++i) print(fmt::format("centre of mass {}", axes[i]), body.centre[i], units.length);
+}
+
+void print_inertia(const Body& body, bool has_density, const TableUnits& units) {
     for (const auto& [i, j] : components)
-        print(fmt::format("inertia {}{}", axes[i], axes[j]), body.inertia[i][j], has_density ? "kg m²" : "m⁵");
+        print(fmt::format("inertia {}{}", axes[i], axes[j]), body.inertia[i][j],
+              has_density ? units.inertia : units.inertia_without_density);
 }
 
-void print_thickness(const WallThickness& w) {
-    if (!w.place) return put("  {:<18}at least {:.5g} m everywhere\n", "thickness", w.low);
-    put("  {:<18}from {:.5g} to {:.5g} m where it is thinnest, at ({:.6g}, {:.6g}, {:.6g})\n", "thickness", w.low,
-        w.high, w.place->x, w.place->y, w.place->z);
+void print_thickness(const WallThickness& w, const PrintedUnit& length) {
+    const double k = 1 / length.size;
+    if (!w.place) return put("  {:<18}at least {:.5g} {} everywhere\n", "thickness", w.low * k, length.name);
+    const glm::dvec3 place = glm::dvec3(*w.place) * k;
+    put("  {:<18}from {:.5g} to {:.5g} {} where it is thinnest, at ({:.6g}, {:.6g}, {:.6g})\n", "thickness", w.low * k,
+        w.high * k, length.name, place.x, place.y, place.z);
 }
 
-void print_phase(const MeasureReport& report, const MeasuredPhase& p) {
+void print_phase(const MeasureReport& report, const MeasuredPhase& p, const TableUnits& units) {
     put("\n{}\n", report.names[p.phase]);
-    print("volume", p.body.volume, "m³");
-    if (p.has_density) print("mass", p.body.mass, "kg");
-    for (std::size_t i = 0; i < 3; ++i) print(fmt::format("centre of mass {}", axes[i]), p.body.centre[i], "m");
-    for (std::size_t i = 0; i < 3; ++i) print(fmt::format("smallest {}", axes[i]), p.box_low[i], "m");
-    for (std::size_t i = 0; i < 3; ++i) print(fmt::format("largest {}", axes[i]), p.box_high[i], "m");
-    print_inertia(p.body, p.has_density);
+    print_body(p.body, p.has_density, units);
+    for (std::size_t i = 0; i < 3; ++i) print(fmt::format("smallest {}", axes[i]), p.box_low[i], units.length);
+    for (std::size_t i = 0; i < 3; ++i) print(fmt::format("largest {}", axes[i]), p.box_high[i], units.length);
+    print_inertia(p.body, p.has_density, units);
     for (const AreaResult::OfPhase& a : report.areas.phases)
         if (a.phase == p.phase)
-            put("  {:<18}{:>14.5g} {:<6} standard error {:.2g}\n", "area", a.area, "m²", a.standard_error);
+            put("  {:<18}{:>14.5g} {:<6} standard error {:.2g}\n", "area", a.area / units.area.size, units.area.name,
+                a.standard_error / units.area.size);
     for (const WallThickness& w : report.walls)
-        if (w.phase == p.phase) print_thickness(w);
+        if (w.phase == p.phase) print_thickness(w, units.length);
 }
 
 Json json_of(const Measured& m) {
@@ -100,19 +127,18 @@ void print_table(const MeasureReport& report) {
     put("{:<20}{}\n", "boxes", m.boxes);
     put("\nEach line has an estimate, and an interval that is guaranteed to contain the number. Areas are statistical\n"
         "estimates. Moments of inertia are about the centre of mass; phases without a density count with density 1.\n");
-    for (const MeasuredPhase& p : m.phases) print_phase(report, p);
+    const TableUnits units(report.unit);
+    for (const MeasuredPhase& p : m.phases) print_phase(report, p, units);
     if (m.all) {
         put("\nall phases with a density\n");
-        print("volume", m.all->volume, "m³");
-        print("mass", m.all->mass, "kg");
-        for (std::size_t i = 0; i < 3; ++i) print(fmt::format("centre of mass {}", axes[i]), m.all->centre[i], "m");
-        print_inertia(*m.all, true);
+        print_body(*m.all, true, units);
+        print_inertia(*m.all, true, units);
     }
     if (report.areas.contacts.empty()) return;
-    put("\n{:<34}{:>14} {:>16}\n", "contact", "area in m²", "standard error");
+    put("\n{:<34}{:>14} {:>16}\n", "contact", fmt::format("area in {}", units.area.name), "standard error");
     for (const AreaResult::OfContact& c : report.areas.contacts)
-        put("{:<34}{:>14.5g} {:>16.2g}\n", fmt::format("{}, {}", report.names[c.first], report.names[c.second]), c.area,
-            c.standard_error);
+        put("{:<34}{:>14.5g} {:>16.2g}\n", fmt::format("{}, {}", report.names[c.first], report.names[c.second]),
+            c.area / units.area.size, c.standard_error / units.area.size);
 }
 
 void print_json(const MeasureReport& report) {

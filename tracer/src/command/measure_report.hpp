@@ -7,11 +7,14 @@
 #include "phasetree/measuring/areas.hpp"
 #include "phasetree/measuring/measure.hpp"
 #include "phasetree/measuring/prove.hpp"
+#include "scene/length_unit.hpp"
 
 namespace phasetree::tracer {
 
+// All numbers are in SI units, as in the JSON; the table has the scene's unit of length.
 struct MeasureReport {
     std::string scene;
+    LengthUnit unit;
     const PhaseNames& names;
     const MeasureResult& measures;
     const AreaResult& areas;

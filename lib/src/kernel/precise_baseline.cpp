@@ -1,0 +1,2 @@
+#define PHASETREE_RUN run_precisely_baseline
+#include "kernel/precise_kernel.inl"
