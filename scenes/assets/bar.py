@@ -250,9 +250,9 @@ def bar():
                        (0.0145, 0.252), (0, 0.252)]), glb.material("Stopper", [0.05, 0.03, 0.02], 0.4), (x, 0, z))
     add("Label", label(0.0390, 0.052, 0.112, 62), glb.material("Paper", [0.62, 0.54, 0.40], 0.7), (x, 0, z),
         rotation=rotation((0, 1, 0), 8))
-    add("Band", label(0.0390, 0.078, 0.0815, 61.5), glb.material("Ink", [0.10, 0.015, 0.012], 0.5), (x * 1.0, 0, z + 0.0001),
+    add("Band", label(0.0390, 0.078, 0.0815, 61.5), glb.material("Ink", [0.10, 0.015, 0.012], 0.5), (x, 0, z + 0.0001),
         rotation=rotation((0, 1, 0), 8))
-    add("Crystal cow", cow(0.046), crystal, (0.108, 0.0001, 0.078), rotation=rotation((0, 1, 0), -42))
+    add("Crystal cow", cow(0.056), crystal, (0.104, 0.0001, 0.046), rotation=rotation((0, 1, 0), -42))
     return glb.bytes()
 
 
@@ -283,7 +283,7 @@ def light(scene):
     ]
     scene["camera"] = {"thin_lens": {"position": [0.01, -0.66, 0.180], "look_at": [0, 0, 0.093], "fov": 26.5,
                                      "lens_radius": 0.006, "focus_at": [0, -0.03, 0.06]}}
-    scene["render"] = {"width": 1200, "height": 900, "samples": 512, "exposure": 0, "caustics": True}
+    scene["render"] = {"width": 1200, "height": 900, "samples": 256, "exposure": 0, "caustics": True}
     return scene
 
 
