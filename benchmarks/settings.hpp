@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "measure/in_turn.hpp"
+#include "phasetree/building/options.hpp"
 
 namespace phasetree::bench {
 
@@ -24,6 +25,7 @@ struct Settings {
     // Processor time of one thread does not count what else the machine does; several threads have only the wall clock.
     Timing timing() const { return {quick ? 3 : 7, quick ? 0.02 : 0.15, threads == 1 ? Clock::thread : Clock::wall}; }
     Timing timing_of_one_thread() const { return {timing().rounds, timing().least_seconds, Clock::thread}; }
+    BuildQuality quality() const { return quick ? BuildQuality::low : BuildQuality::medium; }
     std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 

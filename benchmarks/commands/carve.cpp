@@ -102,7 +102,7 @@ Report carve(const Settings& settings) {
         const CarvedBounds convex = phasetree::carve(object.object);
         const double taken = seconds(Clock::thread) - start;
 
-        const FieldScene cells(object.object);
+        const FieldScene cells(object.object, {}, settings.quality());
         const auto camera = camera_for(cells.cells().bounds());
         const Rays rays = camera_rays(camera, settings.width, settings.height), fewer = camera_rays(camera, few, few);
         const InterfaceTracer in_box(object.object), in_convex(object.object, convex.planes);

@@ -145,7 +145,9 @@ Report host(const Settings& settings) {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     const support::TemporaryDirectory folder;  // removed at the end of the benchmark
     double decode = 0, read = 0;
-    for (const std::string name : {"hourglass", "cable", "drinks", "tentacle"}) {
+    std::vector<std::string> names{"hourglass", "cable"};
+    if (!settings.quick) names.insert(names.end(), {"drinks", "tentacle"});
+    for (const std::string& name : names) {
         const Host host(name);
         const Rays camera = camera_rays(scene_file(name).camera, settings.width, settings.height);
         const Turns hits = decoding(host, camera, settings), cells = reading(host, folder / "cells", settings),

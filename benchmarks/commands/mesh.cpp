@@ -89,11 +89,13 @@ Report mesh(const Settings& settings) {
         double field_seconds = 0, meshing_seconds = 0, medium_seconds = 0, high_seconds = 0;
         // No ray is inside either surface.
         const PhaseSet opaque{phases(scene.object).bits & ~std::uint64_t{1}};
-        const auto field = timed([&] { return std::make_unique<FieldScene>(scene.object, opaque); }, field_seconds);
+        const auto field = timed([&] { return std::make_unique<FieldScene>(scene.object, opaque, settings.quality()); },
+                                 field_seconds);
         // Cells know nothing of places where several opaque phases meet, and lines of the grid may pass through these.
         // Such an object is therefore meshed from its outer surface.
         const bool is_one = std::popcount(opaque.bits) == 1;
-        const auto surface = is_one ? nullptr : std::make_unique<FieldScene>(outer(scene.object), PhaseSet{0b10});
+        const auto surface =
+            is_one ? nullptr : std::make_unique<FieldScene>(outer(scene.object), PhaseSet{0b10}, settings.quality());
         const Triangles triangles =
             timed([&] { return surface_nets(is_one ? *field : *surface, cubes); }, meshing_seconds);
         const auto medium =

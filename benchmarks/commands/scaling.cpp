@@ -36,7 +36,7 @@ Report scaling(const Settings& settings) {
                 for (int i = 0; i < build_rounds; ++i) {
                     o.scene.reset();
                     const double start = seconds(Clock::thread);
-                    o.scene = std::make_unique<FieldScene>(object, opaque);
+                    o.scene = std::make_unique<FieldScene>(object, opaque, settings.quality());
                     times.push_back(seconds(Clock::thread) - start);
                 }
                 return spread_of(times);

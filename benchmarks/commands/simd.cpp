@@ -47,7 +47,7 @@ Report simd(const Settings& settings) {
     std::vector<Scene> scenes;
     const auto add = [&](const std::string& name, const Phased& object,
                          const std::optional<tracer::AnyCameraParameters>& camera) {
-        Scene scene{name, std::make_unique<FieldScene>(object), {}, {}};
+        Scene scene{name, std::make_unique<FieldScene>(object, PhaseSet{}, settings.quality()), {}, {}};
         const InterfaceCells& cells = scene.cells->cells();
         scene.primary = camera_rays(camera ? *camera : camera_for(cells.bounds()), settings.width, settings.height);
         scene.random = rays_from_inside(*scene.cells, settings.pixels(), settings.seed);

@@ -81,8 +81,8 @@ Report table1(const Settings& settings) {
     double sum = 0, worst = -1e30;
     for (const Object& object : objects()) {
         const tracer::Scene multi = scene_file(object.multiphase), mono = scene_file(object.monophase);
-        const FieldScene with(multi.object, tracer::opaque_phases(multi.materials)),
-            without(mono.object, tracer::opaque_phases(mono.materials));
+        const FieldScene with(multi.object, tracer::opaque_phases(multi.materials), settings.quality()),
+            without(mono.object, tracer::opaque_phases(mono.materials), settings.quality());
         const float ground = std::min(with.cells().bounds().low.z, without.cells().bounds().low.z);
         const FieldScene with_ground(with, ground), without_ground(without, ground);
         const Rays rays = camera_rays(multi.camera, settings.width, settings.height);

@@ -83,7 +83,8 @@ void compare_both(const TriangleMesh& mesh, const Settings& settings, Report& re
     for (const Solid& solid : solids) {
         double field_seconds = 0;
         const Phased object = Set{.phase = Phase{1}, .of = solid.field};
-        const auto field = timed([&] { return std::make_unique<FieldScene>(object, PhaseSet{0b10}); }, field_seconds);
+        const auto field = timed(
+            [&] { return std::make_unique<FieldScene>(object, PhaseSet{0b10}, settings.quality()); }, field_seconds);
         const Rays primary = camera_rays(camera_for(field->cells().bounds()), settings.width, settings.height);
         const RaceWithMesh race = bench::race(*field, *triangles, primary, settings);
         const bool is_mesh = &solid == &solids.front();

@@ -85,7 +85,8 @@ struct Contest {
     }
     void run(const std::string& what, const Phased& object, PhaseSet opaque, double preparing, bool with_triangles) {
         double building = 0, of_triangles = 0;
-        const auto field = timed([&] { return std::make_unique<FieldScene>(object, opaque); }, building);
+        const auto field =
+            timed([&] { return std::make_unique<FieldScene>(object, opaque, settings.quality()); }, building);
         const Triangles surface = surface_nets(*field, n);
         const auto triangles =
             timed([&] { return std::make_unique<MeshScene>(surface, RTC_BUILD_QUALITY_MEDIUM); }, of_triangles);

@@ -50,7 +50,7 @@ TEST_CASE("phasetree-bench all: every subcommand's numbers are finite and positi
                                                    {"naive", "scenes", 2, 2, 2},
                                                    {"mesh", "scenes", 16, 3, 4},
                                                    {"simd", "instruction_sets", 0, 2, 1},
-                                                   {"host", "scenes", 4, 2, 0},
+                                                   {"host", "scenes", 2, 2, 0},
                                                    {"carve", "objects", 8, 0, 16},
                                                    {"march", "ways", 3, 0, 1},
                                                    {"proxies", "objects", 3, 0, 1},

@@ -50,7 +50,7 @@ void forge(Bytes& file) {
 
 TEST_CASE("a file that ends too early is rejected wherever it ends") {
     const Written w;
-    const std::size_t step = long_tests() ? 1 : 1 + w.bytes.size() / 4000;
+    const std::size_t step = long_tests() ? 1 : 1 + w.bytes.size() / 2000;
     const fs::path path = w.folder / "short";
     for (std::size_t size = w.bytes.size(); size-- > 0; size -= std::min(size, step - 1)) {
         put(path, Bytes(w.bytes.begin(), w.bytes.begin() + static_cast<std::ptrdiff_t>(size)));
@@ -64,7 +64,7 @@ TEST_CASE("every changed byte is found") {
     MESSAGE(w.bytes.size(), " bytes");
     Random rng(23);
     const fs::path path = w.folder / "changed";
-    const std::size_t step = long_tests() ? 1 : 1 + w.bytes.size() / 8000;
+    const std::size_t step = long_tests() ? 1 : 1 + w.bytes.size() / 4000;
     for (std::size_t at = 0; at < w.bytes.size(); at += at < sizeof(CellsFileHeader) ? 1 : step) {
         Bytes file = w.bytes;
         file[at] ^= static_cast<unsigned char>(1 << rng.below(8));
@@ -94,7 +94,7 @@ TEST_CASE("forged checksums do not make a ray read what is not there") {
     Random rng(29);
     const fs::path path = w.folder / "forged";
     int accepted = 0, refused = 0;
-    const int count = long_tests() ? 200'000 : 4'000;
+    const int count = long_tests() ? 200'000 : 2'000;
     for (int n = 0; n < count; ++n) {
         Bytes file = w.bytes;
         const int changes = 1 + rng.below(3);

@@ -67,6 +67,9 @@ class Solid {
     bool contains(const glm::vec3& p) const {
         return Mesh::distance(node_.table.data(), Vec3<float>{p.x, p.y, p.z}) < 0;
     }
+    mesh::PieceKind nearest(const glm::vec3& p) const {
+        return mesh::PieceTree::nearest(node_.table.data(), {p.x, p.y, p.z}).kind;
+    }
     bool is_at_hole(const glm::dvec3& p) const {
         return std::ranges::any_of(mesh_.holes, [&](const HullOfHole& h) { return h.contains(p, rounding_); });
     }
@@ -304,6 +307,62 @@ TEST_CASE("the region of a face does not extend beyond its sharp corners") {
     CHECK(outside > points.size() / 2);
     CHECK(wrong == 0);
     compare({.name = "fans", .file = mesh, .meant = mesh}, rng);
+}
+
+// Beside the tip of a spike, the tip is nearest. The edges that end there are as near up to rounding, and one may win,
+// although its height over the point has the wrong sign. Not compared are points to which a face is nearest, and those
+// opposite to the coplanar faces, where an edge of these may be right about the direction but not about the side.
+TEST_CASE("beside the tip of a spike, edges with the wrong sign are not nearest") {
+    Random rng(341);
+    std::size_t edges = 0, wrong = 0;
+    double farthest = 0;
+    for (int spike = 0; spike < 300; ++spike) {
+        const glm::dmat3 turn(
+            glm::rotate(glm::dmat4(1), static_cast<double>(rng.uniform(0, 6)), glm::dvec3(rng.direction())));
+        const double width = std::pow(10.0, static_cast<double>(rng.uniform(-2.5f, -0.5f)));
+        const auto corner = [&](int k) {
+            const double a = 2 * std::numbers::pi / 3 * k;
+            return turn * glm::dvec3(width * std::cos(a), width * std::sin(a), 1);
+        };
+        // The triangles on either side of the edge from vertex 0 to 2 are coplanar. The other edges from vertex 0 are
+        // sharp, with about 60 degrees between their normals and those of the faces.
+        const glm::dvec3 a = corner(0), b = corner(1), up = glm::normalize(glm::cross(b, a));
+        const TriangleMesh spiked{{glm::vec3(0), a, glm::mix(a, b, 0.3), b, corner(2)},
+                                  {{0, 2, 1}, {0, 3, 2}, {0, 4, 3}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}}};
+        const Solid solid({.name = "spike", .file = spiked, .meant = spiked});
+        CHECK_FALSE(solid.is_repaired());
+        std::vector<glm::vec3> beside;
+        while (beside.size() < 400) {
+            const glm::vec3 edge = spiked.vertices[static_cast<std::size_t>(1 + rng.below(4))];
+            const glm::vec3 away = glm::normalize(glm::cross(edge, rng.direction()));
+            if (glm::dot(glm::dvec3(away), up) > -0.6) beside.push_back(std::pow(10.f, rng.uniform(-6, -3)) * away);
+        }
+        const std::vector<double> windings = winding_numbers(spiked, beside);
+        for (std::size_t i = 0; i < beside.size(); ++i) {
+            if (solid.nearest(beside[i]) != mesh::PieceKind::edge) continue;
+            ++edges;
+            if ((windings[i] >= 0.5) == solid.contains(beside[i])) continue;
+            farthest = std::max(farthest, oracle::to_triangles(spiked, glm::dvec3(beside[i])));
+            ++wrong;
+        }
+    }
+    // The bound in mesh_pieces.hpp: 2 s/cos β, where s is twice the slack, and the edges are about as long as 1.
+    const double bound = 2 * 2 * 0x1p-22 * 1.06 / 0.498;
+    MESSAGE(edges, " points nearest to edges, ", wrong, " wrong, at most ", farthest, " away");
+    CHECK(edges > 10'000);
+    CHECK(farthest < bound);
+}
+
+// A repaired mesh, and a point beside one of its spikes to which an edge of the spike was nearest.
+TEST_CASE("an edge of a repaired spike is not nearest to a point on its other side") {
+    Random rng(337);
+    PlantedDefects planted(rng);
+    const Solid solid(planted.all("rough ball", random_mesh(rng, 3, 0.6f)).front());
+    CHECK(solid.is_repaired());
+    const glm::vec3 p(0x1.08b05ep+0f, 0x1.fc3eep-1f, -0x1.c870eap-1f);
+    CHECK(std::abs(oracle::winding_number(solid.mesh().meant, p)) < 1e-9);
+    CHECK(oracle::to_triangles(solid.mesh().meant, glm::dvec3(p)) > solid.rounding());
+    CHECK_FALSE(solid.contains(p));
 }
 
 TEST_CASE("meshes with planted defects are the solids of their winding numbers") {

@@ -20,7 +20,7 @@ using namespace phasetree::tests;
 TEST_CASE("the nearest crossing over all cells is the whole object's") {
     Random rng(13);
     std::vector<Phased> objects{hourglass()};
-    for (int i = 0; i < (long_tests() ? 300 : 12); ++i) objects.push_back(traceable_object(rng, 3));
+    for (int i = 0; i < (long_tests() ? 300 : 6); ++i) objects.push_back(traceable_object(rng, 3));
     Compared all;
     for (const Phased& object : objects) compare_crossings(object, {}, 300, rng, all, any_quality(rng));
     MESSAGE(all.rays, " rays, ", all.crossings, " crossings, ", all.different, " different");
@@ -31,7 +31,7 @@ TEST_CASE("the nearest crossing over all cells is the whole object's") {
 TEST_CASE("with opaque phases rays in the others meet what they met, and where opaque ones meet there are no cells") {
     Random rng(14);
     std::vector<Phased> objects{hourglass()};
-    for (int i = 0; i < (long_tests() ? 300 : 12); ++i) objects.push_back(traceable_object(rng, 3));
+    for (int i = 0; i < (long_tests() ? 300 : 6); ++i) objects.push_back(traceable_object(rng, 3));
     Compared all;
     std::size_t cells_without = 0, cells_with = 0;
     for (const Phased& object : objects) {

@@ -86,7 +86,7 @@ Field edges(Random& rng) {
 TEST_CASE("rays along curved surfaces beside edges, and along rounded edges, meet what rays meet of the whole object") {
     Random rng(34);
     Compared all;
-    for (int n = 0; n < (long_tests() ? 4000 : 75); ++n) {
+    for (int n = 0; n < (long_tests() ? 4000 : 40); ++n) {
         // Moved out by more and less than a cell is large: the corner's own distance counts, or that it is none.
         const float by = std::exp2(-rng.uniform(3, 10)), size = rng.uniform(0.1f, 0.6f);
         Field round = edges(rng);
@@ -115,7 +115,7 @@ TEST_CASE("a ray that grazes a ball beside its crease with a plate meets it") {
     Random rng(35);
     Evaluator::Workspace w;
     Compared all;
-    for (int n = 0; n < (long_tests() ? 2000 : 50); ++n) {
+    for (int n = 0; n < (long_tests() ? 2000 : 25); ++n) {
         const float radius = rng.uniform(0.1f, 0.4f), height = rng.uniform(-0.3f, 0.3f) * radius;
         const glm::vec3 up = rng.direction();
         Field both = Union{{Sphere{.radius = radius}, warped(Translate{height * up}, Plane{.normal = up})}};
@@ -151,7 +151,7 @@ TEST_CASE("a ray that grazes a dome beside its cut meets it, where the bounds of
     Random rng(36);
     Evaluator::Workspace w;
     Compared all;
-    for (int n = 0; n < (long_tests() ? 2000 : 100); ++n) {
+    for (int n = 0; n < (long_tests() ? 2000 : 50); ++n) {
         const float radius = std::exp2(rng.uniform(-2.3f, 0.5f));
         const glm::vec3 up = rng.direction(), side = glm::normalize(glm::cross(up, rng.direction()));
         const Field ball = warped(Translate{-radius * up}, Sphere{.radius = radius});
@@ -196,7 +196,7 @@ TEST_CASE("near edges rays take few batches, and meet what rays meet of the whol
     std::size_t rays = 0, crossings = 0, different = 0;
     TraceCounters all;
     Evaluator::Workspace w;
-    for (int n = 0; n < (long_tests() ? 4000 : 200); ++n) {
+    for (int n = 0; n < (long_tests() ? 4000 : 100); ++n) {
         const Phased object = solid(edges(rng));
         const InterfaceCells cells(object);
         const CellsAlongRay boxes(cells);

@@ -84,7 +84,7 @@ TEST_CASE("so does one while the scene is waited for on standard input") {
 
 TEST_CASE("reading that takes long shows how far it is, also where there is no terminal") {
     const Shell shell;
-    write_text(shell.directory / "scene.json", long_scene(150));
+    write_text(shell.directory / "scene.json", long_scene(100));
     const Outcome o = shell.run({"render", "scene.json", "-o", "a.exr"});
     CAPTURE(o.err);
     CHECK(o.code == 2);

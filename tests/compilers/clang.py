@@ -2,9 +2,10 @@
 
     python3 clang.py BUILD [TARGET…]
 
-BUILD has a compile_commands.json. The short form takes every kernel, the fuzzers, all headers, up to ten of the sources
-that differ from the commit before the last, and every source that names a view of ranges, because Clang 14 cannot compile
-most views of libstdc++. With PHASETREE_LONG_TESTS, all sources are taken; with targets, all of these targets.
+BUILD has a compile_commands.json. The short form takes the kernels of the oldest and the newest instruction set, the
+fuzzers, all headers, up to ten of the sources that differ from the commit before the last, and every source that names a
+view of ranges, because Clang 14 cannot compile most views of libstdc++. With PHASETREE_LONG_TESTS, all sources are taken;
+with targets, all of these targets.
 
 Only syntax and types are checked. Sources that are compiled with the same options are checked as one unit, because parsing
 the standard library's headers takes most of the time. If two of them give a name two meanings, they are checked again
@@ -29,6 +30,8 @@ SKIPPED = 77
 FOR_CLANG = ["-Wno-unknown-warning-option", "-Wno-bitwise-instead-of-logical"]
 SHORT_TARGETS = {"fuzz"}
 MOST_CHANGED = 10
+# Between these two, kernels differ only in their options.
+KERNELS = ("/lib/src/kernel/baseline.cpp", "/lib/src/kernel/avx512.cpp", "/lib/src/kernel/faces.cpp")
 # Views, and the algorithms that return one.
 VIEW = re.compile(r"\bviews::|ranges::(subrange|unique|remove|partition|stable_partition|rotate|search|equal_range|find_end)\w*\b")
 # Folders whose headers the short form checks, with the target whose options they are checked with.
@@ -78,7 +81,7 @@ def selected(groups, targets):
     changed = changed_files()
     for target, options, sources in groups:
         if target not in SHORT_TARGETS:
-            sources = [s for s in sources if "/lib/src/kernel/" in s or s in changed or names_a_view(s)]
+            sources = [s for s in sources if s.endswith(KERNELS) or s in changed or names_a_view(s)]
         if sources:
             yield target, options, sources
     units = {}

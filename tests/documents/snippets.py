@@ -34,9 +34,9 @@ import tempfile
 import textwrap
 import unittest
 
+import forked
 from markdown import ROOT, Block, blocks, without_comments
 
-COMMAND = os.environ["PHASETREE_COMMAND"]
 STUBS = pathlib.Path(__file__).parent / "stubs"
 REFERENCE = ROOT / "scenes/reference"
 DOCUMENTS = sorted([ROOT / "README.md", ROOT / "scenes/README.md", ROOT / "plugins/embree/README.md",
@@ -129,6 +129,12 @@ def with_definitions(program: str, block: Block) -> str:
     return program
 
 
+def setUpModule() -> None:
+    server = forked.server()
+    server.__enter__()
+    unittest.addModuleCleanup(server.__exit__, None, None, None)
+
+
 class Snippets(unittest.TestCase):
     def of(self, *languages: str, directive: str | None = None) -> list[Block]:
         """The blocks in these languages, of which there must be some."""
@@ -140,9 +146,9 @@ class Snippets(unittest.TestCase):
         arguments = ["render", "-", "--spp", "1", "--size", "32x24", "--quiet", "-o", os.devnull + ".png"]
         with tempfile.TemporaryDirectory() as folder:
             arguments[-1] = f"{folder}/picture.png"
-            for words in (["check", "-"], arguments)[: 2 if render else 1]:
-                done = subprocess.run([COMMAND, *words], input=json.dumps(scene), text=True, capture_output=True,
-                                      cwd=ROOT / "scenes")
+            # Rendering checks a scene, too, except for what it expects.
+            for words in [*([["check", "-"]] if not render or "expect" in scene else []), *([arguments] if render else [])]:
+                done = forked.run(words, json.dumps(scene), cwd=ROOT / "scenes")
                 self.assertEqual(done.returncode, 0, f"{block}\n{done.stderr}{done.stdout}")
 
     def test_languages_are_known(self):
@@ -290,14 +296,13 @@ class SceneReference(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for example in render.examples():
                 with self.subTest(str(example.relative_to(REFERENCE))):
-                    done = subprocess.run([COMMAND, "render", "-", "--spp", "1", "--size", "32x24", "--quiet", "-o",
-                                           f"{folder}/picture.png"], input=json.dumps(render.scene_of(example)), text=True,
-                                          capture_output=True, cwd=ROOT / "scenes")
+                    done = forked.run(["render", "-", "--spp", "1", "--size", "32x24", "--quiet", "-o",
+                                       f"{folder}/picture.png"], json.dumps(render.scene_of(example)), cwd=ROOT / "scenes")
                     self.assertEqual((done.returncode, done.stderr), (0, ""), example)
 
     def test_command_writes_the_pages(self):
         with tempfile.TemporaryDirectory() as folder:
-            failed = subprocess.run([COMMAND, "nodes", "--markdown", folder], capture_output=True, text=True)
+            failed = forked.run(["nodes", "--markdown", folder])
             self.assertEqual(failed.returncode, 2)
             self.assertIn(f"--markdown: {folder}/scene-file/scene.json: ", failed.stderr)
             self.assertEqual(os.listdir(folder), [])
@@ -305,7 +310,7 @@ class SceneReference(unittest.TestCase):
                 copy = pathlib.Path(folder) / example.relative_to(REFERENCE)
                 copy.parent.mkdir(exist_ok=True)
                 shutil.copy(example, copy)
-            subprocess.run([COMMAND, "nodes", "--markdown", folder], check=True)
+            self.assertEqual(forked.run(["nodes", "--markdown", folder]).returncode, 0)
             for page in REFERENCE.glob("*.md"):
                 self.assertTrue((pathlib.Path(folder) / page.name).read_bytes() == page.read_bytes(), page)
 
@@ -325,13 +330,13 @@ class CommandLine(unittest.TestCase):
     def test_every_option_is_described(self):
         page = (ROOT / "tracer/manual/reference/command-line.md").read_text(encoding="utf-8")
         common = page[: page.index("\n## render")]
-        overview = subprocess.run([COMMAND, "--help"], capture_output=True, text=True, check=True).stdout
+        overview = forked.run(["--help"]).stdout
         commands = re.findall(r"^  ([a-z]+) ", overview[overview.lower().index("commands:") :], re.M)
         self.assertGreater(len(commands), 8)
         for command in commands:
             section = re.search(rf"^## {command}\n(.*?)(?=^## |\Z)", page, re.M | re.S)
             self.assertIsNotNone(section, f"{command} has no section")
-            text = subprocess.run([COMMAND, command, "--help"], capture_output=True, text=True, check=True).stdout
+            text = forked.run([command, "--help"]).stdout
             for option in sorted(set(re.findall(r"^ +(?:-\w, *)?(--[a-z][a-z-]+)", text, re.M)) - {"--help"}):
                 with self.subTest(f"{command} {option}"):
                     self.assertRegex(section.group(1) + common, rf"`[^`]*{option}\b(?!-)")
@@ -341,7 +346,7 @@ class CommandLine(unittest.TestCase):
         page = (ROOT / "tracer/manual/reference/command-line.md").read_text(encoding="utf-8")
         table = re.search(r"^\| exit code \|.*?\n\n|^\| exit code \|.*\Z", page + "\n", re.M | re.S).group(0)
         described = {code: meaning.replace("`", "") for code, meaning in re.findall(r"^\| (\d+) \| (.*) \|$", table, re.M)}
-        overview = subprocess.run([COMMAND, "--help"], capture_output=True, text=True, check=True).stdout
+        overview = forked.run(["--help"]).stdout
         listed = overview[overview.index("Exit codes:") :]
         self.assertEqual(described, dict(re.findall(r"^  (\d+) +(.*)$", listed, re.M)))
         self.assertGreater(len(described), 5)

@@ -62,7 +62,7 @@ struct Session {
 };
 
 std::size_t next(std::size_t n) {
-    return long_tests() ? n + 1 : n + 1 + n / 40;
+    return long_tests() ? n + 1 : n + 1 + n / 20;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 // Every n at first, and then ever fewer; in the long form all.
 std::size_t next(std::size_t n) {
-    return long_tests() ? n + 1 : n + 1 + n / 40;
+    return long_tests() ? n + 1 : n + 1 + n / 20;
 }
 
 void check_each_allocation(const std::vector<std::string>& arguments) {

@@ -56,7 +56,7 @@ double slack(const glm::vec3& p) {
 }  // namespace
 
 TEST_CASE("nothing of an object lies outside its bounds") {
-    const int trees = long_tests() ? 2000 : 60;
+    const int trees = long_tests() ? 2000 : 24;
     for (const NodeKind& kind : node_kinds()) {
         Random rng = random_for(61, kind);
         for (int tree = 0; tree < trees; ++tree) {
@@ -79,7 +79,7 @@ TEST_CASE("nothing of an object lies outside its bounds") {
 }
 
 TEST_CASE("at every level, what is within the level of a field lies within the bounds") {
-    const int trees = long_tests() ? 2000 : 60;
+    const int trees = long_tests() ? 2000 : 24;
     for (const NodeKind& kind : node_kinds()) {
         Random rng = random_for(62, kind);
         for (int tree = 0; tree < trees; ++tree) {

@@ -21,6 +21,7 @@
 #include "phasetree/nodes/phased/strata.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "support/glass_of_water.hpp"
+#include "support/long_tests.hpp"
 #include "support/random_mesh.hpp"
 #include "support/random_tree.hpp"
 #include "support/random_voxels.hpp"
@@ -38,6 +39,8 @@ constexpr Phase ball_phase{1}, box_phase{2}, bead_phase{3};
 using Points = std::vector<glm::vec3>;
 
 constexpr float spacing = 0.01f;  ///< of the points of a surface
+const int quarter_of_points = long_tests() ? 50'000 : 15'000;
+const int rays = long_tests() ? 100'000 : 25'000;
 
 /// Points of a sphere, no more than `spacing` apart.
 Points sphere_points(const glm::vec3& centre, float r) {
@@ -157,7 +160,7 @@ Differences differences(const Phased& object) {
     const Phased truth = exact();
     Random rng(702);
     Differences result;
-    for (int n = 0; n < 200'000; ++n) {
+    for (int n = 0; n < 4 * quarter_of_points; ++n) {
         glm::vec3 p = rng.in(Bounds{{-0.5f, -0.5f, -0.2f}, {0.5f, 0.5f, 1}});
         if (n % 4 == 1) p *= glm::vec3(glm::vec2((radius + rng.uniform(-gap, gap)) / std::hypot(p.x, p.y)), 1);
         if (n % 4 == 2) p.z = rng.uniform(-gap, gap);
@@ -190,14 +193,14 @@ TEST_CASE(
         CAPTURE(larger_by);
         const Differences found = differences(closed(filled(hollow(), water_larger_by(larger_by))));
         MESSAGE(found.near, " of ", found.points, " points differ");
-        CHECK(found.points > 190'000);
+        CHECK(found.points > 3.8 * quarter_of_points);
         CHECK(found.far == 0);
         CHECK(found.other == 0);
-        CHECK(found.near > 100);
+        CHECK(found.near > quarter_of_points / 500);
     }
     // The node changes nothing else: without it, only water that is too small differs.
     CHECK(differences(filled(hollow(), water_larger_by(excess))).far == 0);
-    CHECK(differences(filled(hollow(), water_larger_by(-excess))).far > 1000);
+    CHECK(differences(filled(hollow(), water_larger_by(-excess))).far > quarter_of_points / 50);
     CHECK(differences(exact()).near == 0);
 }
 
@@ -297,12 +300,12 @@ TEST_CASE("no ray meets vacuum between glass and water, whether they overlap, to
     for (const float larger_by : {excess, 0.f, -excess}) {
         CAPTURE(larger_by);
         const Phased apart = filled(hollow(), water_larger_by(larger_by));
-        const Slivers before = slivers(apart, 30'000), after = slivers(closed(apart), 100'000);
-        MESSAGE(before.slivers, " slivers in 30,000 rays before; ", after.wetted,
+        const Slivers before = slivers(apart, rays / 3), after = slivers(closed(apart), rays);
+        MESSAGE(before.slivers, " slivers in a third of the rays before; ", after.wetted,
                 " crossings from glass to water or back");
         CHECK(after.slivers == 0);
-        CHECK(after.wetted > 100'000);
-        if (larger_by < 0) CHECK(before.slivers > 10'000);
+        CHECK(after.wetted > rays);
+        if (larger_by < 0) CHECK(before.slivers > rays / 10);
         // Where the walls coincide, few rays meet the slivers that rounding leaves between them.
         if (larger_by == 0) CHECK(before.slivers > 0);
     }
@@ -312,11 +315,11 @@ TEST_CASE("no ray meets vacuum between meshes or voxels of glass and water, thou
     const std::array objects{filled(mesh_of_glass(), mesh_of_water()), filled(voxels_of_glass(), mesh_of_water())};
     for (std::size_t i = 0; i < objects.size(); ++i) {
         CAPTURE(i);
-        const Slivers before = slivers(objects[i], 1000), after = slivers(closed(objects[i]), 100'000);
+        const Slivers before = slivers(objects[i], 1000), after = slivers(closed(objects[i]), rays);
         MESSAGE(before.slivers, " slivers in 1000 rays before; ", after.wetted,
                 " crossings from glass to water or back");
         CHECK(after.slivers == 0);
-        CHECK(after.wetted > 100'000);
+        CHECK(after.wetted > rays);
         CHECK(before.slivers > 10);
     }
 }

@@ -32,7 +32,7 @@ struct WholeTracer {
 TEST_CASE("a ray that creeps along a surface misses nothing of what lies behind it") {
     creeping::Totals totals;
     creeping::trace_along_lines(
-        211, long_tests() ? 400 : 30, [](const Phased& a) { return WholeTracer{InterfaceTracer(a)}; }, totals);
+        211, long_tests() ? 400 : 12, [](const Phased& a) { return WholeTracer{InterfaceTracer(a)}; }, totals);
     creeping::check_totals(totals);
 }
 

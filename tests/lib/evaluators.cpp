@@ -111,7 +111,7 @@ TEST_CASE("the program under every instruction set equals the walk over the tree
     const RestoreTarget restore;
     const auto targets = simd_targets();
     REQUIRE(!targets.empty());
-    for_many_objects(31, long_tests() ? 1000 : 24, [&](const Phased& object, Random& rng) {
+    for_many_objects(31, long_tests() ? 1000 : 8, [&](const Phased& object, Random& rng) {
         const Evaluator evaluator(record(object));
         const Bounds region = region_of_interest(bounds(object));
         for (std::size_t n = 0; n < 64; n += batch_size) {
@@ -128,7 +128,7 @@ TEST_CASE("the program under every instruction set equals the walk over the tree
 
 TEST_CASE("samples along a ray are the samples at origin + t · direction") {
     const RestoreTarget restore;
-    for_many_objects(32, 10, [&](const Phased& object, Random& rng) {
+    for_many_objects(32, long_tests() ? 10 : 4, [&](const Phased& object, Random& rng) {
         const Evaluator evaluator(record(object));
         Evaluator::Workspace w;
         const glm::vec3 o = rng.in(Bounds::centred(glm::vec3(2))), d = rng.direction();
@@ -157,7 +157,7 @@ TEST_CASE("an unknown instruction set is rejected") {
 }
 
 TEST_CASE("dual numbers carry the same values, and the program's gradients are theirs") {
-    for_many_objects(33, 30, [](const Phased& object, Random& rng) {
+    for_many_objects(33, long_tests() ? 30 : 8, [](const Phased& object, Random& rng) {
         const Evaluator evaluator(record(object));
         const Bounds region = region_of_interest(bounds(object));
         for (int n = 0; n < 10; ++n) {
@@ -183,7 +183,7 @@ TEST_CASE("gradients equal central differences away from kinks") {
     constexpr double h = 1e-5;
     std::size_t compared = 0, skipped = 0, ties = 0;
     double worst = 0;
-    for_many_objects(34, long_tests() ? 1000 : 30, [&](const Phased& object, Random& rng) {
+    for_many_objects(34, long_tests() ? 1000 : 12, [&](const Phased& object, Random& rng) {
         const Evaluator evaluator(record(object));
         const Bounds region = region_of_interest(bounds(object));
         for (int n = 0; n < 10; ++n) {

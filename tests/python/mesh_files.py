@@ -94,24 +94,40 @@ def read_obj(path):
 
 
 def read_3mf(path):
+    """The parts of a 3MF file: name, base material, vertices and triangles. They are the triangles of one object, by
+    their materials, and also by the ranges that PrusaSlicer reads."""
     space = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
     with zipfile.ZipFile(path) as package:
         assert package.testzip() is None
         relations = xml.etree.ElementTree.fromstring(package.read("_rels/.rels"))
-        xml.etree.ElementTree.fromstring(package.read("[Content_Types].xml"))
+        types = xml.etree.ElementTree.fromstring(package.read("[Content_Types].xml"))
+        assert {name.rsplit(".", 1)[1] for name in package.namelist()[1:]} == {t.get("Extension") for t in types}
         model = xml.etree.ElementTree.fromstring(package.read(relations[0].get("Target").lstrip("/")))
+        config = xml.etree.ElementTree.fromstring(package.read("Metadata/Slic3r_PE_model.config"))
     assert model.get("unit") == "millimeter"
     bases = [(b.get("name"), b.get("displaycolor")) for b in model.iter(space + "base")]
-    parts = {}
-    for thing in model.iter(space + "object"):
-        if thing.find(space + "mesh") is None:
-            whole, components = thing.get("id"), [c.get("objectid") for c in thing.iter(space + "component")]
-            continue
-        vertices = np.array([[float(v.get(k)) for k in "xyz"] for v in thing.iter(space + "vertex")])
-        triangles = np.array([[int(t.get(k)) for k in ("v1", "v2", "v3")] for t in thing.iter(space + "triangle")])
-        parts[thing.get("id")] = (thing.get("name"), bases[int(thing.get("pindex"))], vertices, triangles)
-    assert list(parts) == components and [i.get("objectid") for i in model.iter(space + "item")] == [whole]
-    return list(parts.values())
+    materials, = model.iter(space + "basematerials")
+    thing, = model.iter(space + "object")
+    item, = model.iter(space + "item")
+    configured, = config
+    assert item.get("objectid") == thing.get("id") == configured.get("id")
+    all_vertices = np.array([[float(v.get(k)) for k in "xyz"] for v in thing.iter(space + "vertex")])
+    written = list(thing.iter(space + "triangle"))
+    all_triangles = np.array([[int(t.get(k)) for k in ("v1", "v2", "v3")] for t in written])
+    assert {t.get("pid") for t in written} == {materials.get("id")}
+    of = np.array([int(t.get("p1")) for t in written])
+    parts, first = [], 0
+    for i, volume in enumerate(configured):
+        assert int(volume.get("firstid")) == first
+        end = int(volume.get("lastid")) + 1
+        assert set(of[first:end]) == {i}
+        values = {m.get("key"): m.get("value") for m in volume}
+        assert values["volume_type"] == "ModelPart" and values["extruder"] == str(i + 1)
+        used, triangles = np.unique(all_triangles[first:end], return_inverse=True)
+        parts.append((values["name"], bases[i], all_vertices[used], triangles.reshape(-1, 3)))
+        first = end
+    assert first == len(written) and sum(len(p[2]) for p in parts) == len(all_vertices)
+    return parts
 
 
 def read_glb(path):

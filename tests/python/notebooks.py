@@ -1,5 +1,5 @@
-"""The notebooks run, and what their last lines give can be shown. In the long form nbconvert runs them as Jupyter does.
-The README's tentacle runs, too."""
+"""The notebooks run, and what their last lines give can be shown. The short form solves for a level with four times the
+tolerance. In the long form nbconvert runs them as Jupyter does. The README's tentacle runs, too."""
 
 import ast
 import json
@@ -10,12 +10,14 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 import phasetree as pt
 from support import ROOT, SCENES
 
 os.environ.setdefault("MPLBACKEND", "Agg")
+IS_LONG = bool(os.environ.get("PHASETREE_LONG_TESTS"))
 NOTEBOOKS = sorted((SCENES / "notebooks").glob("*.ipynb"))
 
 
@@ -39,6 +41,11 @@ def run_cell(source, names):
             assert shown(value)
 
 
+def solve_coarsely(*arguments, tolerance, solve=pt.solve, **settings):
+    """pt.solve() with four times the tolerance, which takes a quarter of the time."""
+    return solve(*arguments, tolerance=4 * tolerance, **settings)
+
+
 class Notebooks(unittest.TestCase):
     def test_there_are_five(self):
         self.assertEqual([p.stem for p in NOTEBOOKS], ["animation", "bottle", "first_steps", "hourglass", "study"])
@@ -47,6 +54,10 @@ class Notebooks(unittest.TestCase):
         before = os.getcwd()
         self.addCleanup(os.chdir, before)
         os.chdir(SCENES / "notebooks")
+        if not IS_LONG:
+            coarse = unittest.mock.patch.object(pt, "solve", solve_coarsely)
+            coarse.start()
+            self.addCleanup(coarse.stop)
         for path in NOTEBOOKS:
             with self.subTest(path.stem):
                 notebook = json.loads(path.read_text(encoding="utf-8"))
@@ -57,7 +68,7 @@ class Notebooks(unittest.TestCase):
                         self.assertEqual(cell["outputs"], [], "outputs are not kept")
                         run_cell("".join(cell["source"]), names)
 
-    @unittest.skipUnless(os.environ.get("PHASETREE_LONG_TESTS"), "a long form")
+    @unittest.skipUnless(IS_LONG, "a long form")
     def test_nbconvert_runs_them(self):
         for path in NOTEBOOKS:
             with self.subTest(path.stem), tempfile.TemporaryDirectory() as folder:
@@ -85,7 +96,7 @@ class Tentacle(unittest.TestCase):
         made, other = names["tentacle"], pt.load(SCENES / "tentacle.json").object
         self.assertEqual(sorted(made.names), sorted(other.names))
         low, high = np.array(other.bounds)
-        points = np.random.default_rng(1).uniform(low - 0.5, high + 0.5, (400_000, 3)).astype(np.float32)
+        points = np.random.default_rng(1).uniform(low - 0.5, high + 0.5, (400_000 if IS_LONG else 60_000, 3)).astype(np.float32)
         for name in other.names[1:]:
             share, wanted = (np.mean(o.label(points) == o.index(name)) for o in (made, other))
             self.assertAlmostEqual(share / wanted, 1, delta=0.35, msg=name)
@@ -96,6 +107,8 @@ class Tentacle(unittest.TestCase):
         self.assertIn(("fat", "flesh"), met)
         self.assertFalse({("skin", "flesh"), ("fat", "vacuum")} & set(met))
 
+    # documents/snippets runs these lines with a small picture.
+    @unittest.skipUnless(IS_LONG, "a long form")
     def test_they_run_and_make_a_picture(self):
         with tempfile.TemporaryDirectory() as folder:
             script, picture = pathlib.Path(folder) / "tentacle.py", pathlib.Path(folder) / "tentacle.png"

@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 import phasetree as pt
-from support import SCENES, gallery_scenes, object_of, run
+from support import SCENES, gallery_scenes, gallery_scenes_for_the_command, object_of, run
 
 
 def rows(text):
@@ -28,7 +28,7 @@ def random_points(shown, count, seed):
 
 class Points(unittest.TestCase):
     def test_labels_and_distances_are_the_command_s(self):
-        for path in gallery_scenes():
+        for path in gallery_scenes_for_the_command():
             shown = pt.load(path).object
             points = random_points(shown, 300, 1)
             said = rows(run("eval", path, given=lines(points)))

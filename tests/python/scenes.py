@@ -11,7 +11,7 @@ import unittest
 
 import numpy as np
 import phasetree as pt
-from support import SCENES, gallery_scenes, run
+from support import SCENES, gallery_scenes, gallery_scenes_for_the_command, run
 
 
 def small_scene():
@@ -136,7 +136,8 @@ class Files(unittest.TestCase):
             again = pt.load(self.folder / "again.json")
             self.assertEqual(again, scene, path.name)
             self.assertEqual(again.object, scene.object)
-            run("check", self.folder / "again.json")
+            if path in gallery_scenes_for_the_command():
+                run("check", self.folder / "again.json")
         scene = small_scene()
         scene.save(self.folder / "small.json")
         self.assertEqual(pt.load(self.folder / "small.json"), scene)

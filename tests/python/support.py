@@ -35,6 +35,11 @@ def gallery_scenes():
     return [p for p in gallery() if p.name != "scene.schema.json"]
 
 
+def gallery_scenes_for_the_command():
+    """Those that a test starts the command for: one of four in the short form, because starting it takes a quarter of a second."""
+    return gallery_scenes() if os.environ.get("PHASETREE_LONG_TESTS") else gallery_scenes()[1::4]
+
+
 def calls(node, shapes, phases, folder):
     """A node of a file, {"name": parameters}, made by the package's functions: each with its arguments by name.
 

@@ -76,7 +76,7 @@ class Cutter {
             case Op::absolute:
                 if (side == Side::below)
                     return box_around({in.a, Side::above, -tau}, box_around({in.a, Side::below, tau}, box));
-                return unite(box_around({in.a, side, tau}, box), box_around({in.a, reversed(side), -tau}, box));
+                return unite({in.a, reversed(side), -tau}, {in.a, side, tau}, box);
             default:
                 // In a box already cut to v ≤ τ, only the part where v ≥ τ remains to be found, and vice versa. If it
                 // was not cut, reversed() returns `at` again.
@@ -101,11 +101,17 @@ class Cutter {
         const auto [v, side, tau] = set;
         const Instruction& in = enclosed_.program.code[v];
         if (side == of_both_side) return of_both(in, side, tau, box);
-        if (side != Side::at) return unite(box_around({in.a, side, tau}, box), box_around({in.b, side, tau}, box));
+        if (side != Side::at) return unite({in.b, side, tau}, {in.a, side, tau}, box);
         const LaneBox rest = already_cut == of_both_side ? box : of_both(in, of_both_side, tau, box);
         if (rest.empty()) return {};
-        return unite(box_around({in.a, side, tau}, rest, of_both_side),
-                     box_around({in.b, side, tau}, rest, of_both_side));
+        return unite({in.b, side, tau}, {in.a, side, tau}, rest, of_both_side);
+    }
+    // A box around the parts of `box` in either level set. The order matters, because the steps that the first one
+    // takes are missing for the second one. As arguments of one call, compilers would evaluate them in different
+    // orders.
+    LaneBox unite(const LevelSet& first, const LevelSet& second, const LaneBox& box, Side already_cut = Side::at) {
+        const LaneBox around_first = box_around(first, box, already_cut);
+        return bounding::unite(around_first, box_around(second, box, already_cut));
     }
     // A box around a level set of a value from its linear bound, without considering its operands.
     LaneBox by_plane(const LevelSet& set, const LaneBox& box) {

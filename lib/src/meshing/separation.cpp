@@ -58,6 +58,7 @@ class Separation {
             for (const std::uint32_t quad : changed) split(quad);
             const std::function<void()>& begin_layer = is_first ? begin_first : cancelled_;
             changed = raise(vertices_in_contact(grid, mesh_, changed, tolerance, begin_layer));
+            if (changed.empty()) changed = raise_turned_over();
         }
     }
 
@@ -92,6 +93,9 @@ class Separation {
             for (const std::uint32_t v : contact)
                 if (placement(v) == lowest) is_raised[v] = 1;
         }
+        return raise(is_raised);
+    }
+    std::vector<std::uint32_t> raise(const std::vector<char>& is_raised) {
         bool is_any = false;
         for (std::uint32_t v = 0; v < placements_.size(); ++v) {
             if (is_raised[v] == 0) continue;
@@ -105,6 +109,60 @@ class Separation {
             if (std::ranges::any_of(mesh_.quads[i].corners, [&](std::uint32_t v) { return is_raised[v] != 0; }))
                 changed.push_back(i);
         return changed;
+    }
+    // Free vertices may be outside their cubes. So a part of a phase that is smaller than the spacing can be turned
+    // over as a whole: its triangles do not cross, but face inward. The volume of the part then has another sign than
+    // with all vertices in the centres of their cubes. Its vertices move into their cubes, and turn it back.
+    std::vector<std::uint32_t> raise_turned_over() {
+        std::vector<char> is_raised(placements_.size(), 0);
+        std::vector<std::uint32_t> parent(placements_.size());
+        const auto root = [&](std::uint32_t v) {
+            while (parent[v] != v) v = parent[v] = parent[parent[v]];
+            return v;
+        };
+        struct Volumes {
+            double own = 0, in_centres = 0;
+        };
+        std::vector<Volumes> volumes(placements_.size());
+        PhaseSet phases;
+        for (const Quad& q : mesh_.quads)
+            for (const Phase p : phases_of(q)) phases = phases | PhaseSet::of(p);
+        for_each_phase(phases.bits, [&](int i) {
+            const Phase phase{static_cast<std::uint8_t>(i)};
+            std::iota(parent.begin(), parent.end(), 0u);
+            std::ranges::fill(volumes, Volumes());
+            for (const Quad& q : mesh_.quads)
+                for (const Phase p : phases_of(q))
+                    if (p == phase)
+                        for (const std::uint32_t v : q.corners) parent[root(v)] = root(q.corners[0]);
+            for (std::uint32_t n = 0; n < mesh_.quads.size(); ++n) {
+                const Quad& q = mesh_.quads[n];
+                const auto [front, behind] = phases_of(q);
+                if (front != phase && behind != phase) continue;
+                const double sign = behind == phase ? 1 : -1;
+                Volumes& of_part = volumes[root(q.corners[0])];
+                const glm::dvec3 origin(mesh_.vertices[root(q.corners[0])]);
+                mesh_.for_each_triangle(n, [&](const std::array<std::uint32_t, 3>& t) {
+                    const auto at = [&](std::size_t k) { return glm::dvec3(mesh_.vertices[t[k]]) - origin; };
+                    of_part.own += sign * glm::dot(at(0), glm::cross(at(1), at(2)));
+                });
+                if (q.axis == 0) of_part.in_centres += sign * (q.is_turned ? -1 : 1) * (q.point.x + 0.5);
+            }
+            for (const Quad& q : mesh_.quads) {
+                const auto [front, behind] = phases_of(q);
+                const Volumes& of_part = volumes[root(q.corners[0])];
+                if ((front != phase && behind != phase) || of_part.own * of_part.in_centres >= 0) continue;
+                for (const std::uint32_t v : q.corners)
+                    if (placements_[v] == Placement::free) is_raised[v] = 1;
+            }
+        });
+        return raise(is_raised);
+    }
+    // In front, and behind.
+    std::array<Phase, 2> phases_of(const Quad& q) const {
+        const Phase first = cut_.labels[cut_.grid.index(q.point)],
+                    second = cut_.labels[cut_.grid.index(q.point + unit(q.axis))];
+        return q.is_turned ? std::array{first, second} : std::array{second, first};
     }
     void move(std::uint32_t vertex) {
         const auto [cube, patch] = cut_.cubes.place_of(vertex);

@@ -28,6 +28,10 @@ constexpr std::uint32_t most_in_leaf = 4;
 // The error of a product with a unit vector, relative to the length of the other factor.
 constexpr double product_error = 0x1p-22;
 
+// Cosines of half of the angle between the normals of an edge's faces: if it is less, the edge's region has any
+// direction; if it is less than the second, the directions are on one side.
+constexpr double least_cosine = 0x1p-6, most_cosine_of_bent_edges = 0.966;
+
 void append(std::vector<float>& floats, const glm::dvec3& v) {
     for (int i = 0; i < 3; ++i) floats.push_back(static_cast<float>(v[i]));
 }
@@ -143,7 +147,23 @@ class TableWriter {
         table.push_back(static_cast<float>(1 / glm::dot(along, along)));
         append(table, unit(m + n));
         table.push_back(static_cast<float>(e.is_rim() ? std::numbers::pi : angle_between(m, n) / 2));
-        table.push_back(static_cast<float>(product_error));
+        append_limits_of_edge(e, table);
+    }
+    // What limits the directions of an edge's region: see mesh_pieces.hpp.
+    void append_limits_of_edge(const SharedEdge& e, std::vector<float>& table) const {
+        const glm::dvec3 &m = s_.normals[e.triangles[0]], &n = s_.normals[e.triangles[1]];
+        const double cosine = glm::length(m + n) / 2;
+        const bool has_normals = !e.is_rim() && m != glm::dvec3(0) && n != glm::dvec3(0);
+        if (!has_normals || cosine < least_cosine) {
+            table.insert(table.end(), {0, 0, 0});
+            return;
+        }
+        const glm::dvec3 along = s_.at(e.ends[1]) - s_.at(e.ends[0]);
+        const bool is_bent = cosine < most_cosine_of_bent_edges;
+        const double bend = !is_bent ? 0 : glm::dot(glm::cross(m, n), along) > 0 ? 1 : -1;
+        const double least = (is_bent ? 2 * 0.5 : 0.9) * cosine, error = 2 * product_error * glm::length(along);
+        for (const double number : {bend, least * least, is_bent ? 2 * error : error})
+            table.push_back(static_cast<float>(number));
     }
     void append_vertex(std::uint32_t v, std::vector<float>& table) const {
         append(table, s_.at(v));

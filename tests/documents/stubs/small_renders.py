@@ -1,8 +1,12 @@
 """phasetree for the documents' shell blocks: renders small pictures with few samples, and ends `view` once it serves."""
 
 import os
+import pathlib
 import subprocess
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import forked
 
 COMMAND = os.environ["PHASETREE_COMMAND"]
 
@@ -52,7 +56,7 @@ def main() -> int:
     if arguments[:1] == ["export"] and "--spacing" not in arguments:
         if not any(a.endswith((".html", ".glsl")) for a in arguments):
             arguments += ["--spacing", "0.05"]
-    return subprocess.run([COMMAND, *arguments]).returncode
+    return forked.exit_code(arguments)
 
 
 sys.exit(main())

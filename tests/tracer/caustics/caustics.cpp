@@ -363,9 +363,9 @@ TEST_CASE("lamps within the object's sphere, before a sun and before each other:
                           {{"rectangle": {{"centre": [0.2, 0, 2.6], "target": [0, 0, 0], "width": 0.7, "height": 0.7, "radiance": [9, 9, 9]}}}}],
                "camera": {{"position": [0.3, -6, 0.9], "look_at": [0, 0, -0.7], "fov": 20}},
                "render": {{"width": 48, "height": 24, "samples": {}, "caustics": {}}})",
-                    target, long_form ? 64 : 24, caustics));
+                    target, long_form ? 64 : 12, caustics));
         };
-        check_pictures(made, long_form ? 1.01 : 1.02, sidak(1e-4, 2));
+        check_pictures(made, long_form ? 1.01 : 1.03, sidak(1e-4, 2));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "integrator/light_proposal.hpp"
+#include "sampling/warps.hpp"
 #include "shading/frame.hpp"
 #include "support/uniform.hpp"
 #include "tracer/support/closed_form.hpp"
@@ -102,7 +103,7 @@ TEST_CASE("directions bent at two planes have the density that is said of them")
         const LightProposal proposal = proposal_of(eta), said = proposal_of(said_eta);
         std::array<Moments, 8> octants;
         double lost = 0;
-        constexpr int count = 1'000'000;
+        const auto count = static_cast<int>(samples_of(1'000'000));
         Uniform random(11);
         for (int i = 0; i < count; ++i) {
             const auto sample = proposal.sample(lights, random.two());
@@ -122,7 +123,7 @@ TEST_CASE("directions bent at two planes have the density that is said of them")
     };
     const double significance = sidak(1e-5, 8);
     CHECK(least_p_value(1.33f, 1.33f) > significance);
-    CHECK(least_p_value(1.33f, 1.33f * 1.01f) < significance);
+    CHECK(least_p_value(1.33f, 1.33f * static_cast<float>(detected(1.01))) < significance);
 }
 
 TEST_CASE("the flat sides of an object that its lamps shine on") {
@@ -166,29 +167,30 @@ TEST_CASE("the top of a lake is a flat side under a sun exactly above it") {
 }
 
 TEST_CASE("no direction to a lamp's rim is said to be a direction to the sky") {
-    // Rounding puts one in a few thousand beyond the edge. With the sky's density, it would be a hundred thousand times
-    // too bright.
-    Lights lights;
-    const glm::vec3 towards = glm::normalize(glm::vec3(0.6f, 0.3f, 0.8f));
-    const float diameter = 0.01f;
-    lights.add(InfiniteLight(Sun(towards, glm::vec3(3), diameter)));
-    lights.add(InfiniteLight(ConstantEnvironment(glm::vec3(0.1f))));
+    // Rounding puts one in a few thousand beyond the edge of some lamps, which depends on their directions and sizes.
+    // With the sky's density, such a direction would be a hundred thousand times too bright.
     Uniform random(5);
-    for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::normalize(glm::vec3(0.1f, -0.2f, 1))}) {
+    int near = 0, said_to_be_of_the_sky = 0;
+    for (int lamp = 0; lamp < 250; ++lamp) {
+        glm::vec3 normal = square_to_uniform_sphere(random.two()), towards = square_to_uniform_sphere(random.two());
+        if (glm::dot(normal, towards) < 0) towards = -towards;
+        const float diameter = 0.002f * std::pow(1000.0f, random());
+        Lights lights;
+        lights.add(InfiniteLight(Sun(towards, glm::vec3(3), diameter)));
+        lights.add(InfiniteLight(ConstantEnvironment(glm::vec3(0.1f))));
         const float eta = 1.33f, cosine = glm::dot(normal, towards);
         const float within = static_cast<float>(cosine_within(static_cast<double>(cosine), 1.33));
         const glm::vec3 image = (towards - normal * cosine) / eta + normal * within;
         const LightProposal proposal(glm::vec3{0.1f, 0.2f, 0.3f}, normal, eta);
-        int near = 0, said_to_be_of_the_sky = 0;
-        for (int i = 0; i < 1'000'000; ++i) {
+        for (int i = 0; i < static_cast<int>(samples_of(8000)); ++i) {
             const auto sample = proposal.sample(lights, random.two());
             if (!sample || glm::distance(sample->wi, image) > diameter * 0.0174533f) continue;
             ++near;
             said_to_be_of_the_sky += sample->pdf < 1;
         }
-        CHECK(near > 100'000);
-        CHECK(said_to_be_of_the_sky == 0);
     }
+    CHECK(near > static_cast<int>(samples_of(200'000)));
+    CHECK(said_to_be_of_the_sky == 0);
 }
 
 namespace {
@@ -223,14 +225,14 @@ Moments seen(const std::string& tree, const std::string& rest, std::uint32_t cou
 }
 
 // Checks that the ground reflects this much light within the statistical error, and that one per cent more would be
-// detected.
+// detected, two per cent in the short form.
 void check_light(const std::string& tree, double expected, double irradiance, double sky, int depth) {
-    const Moments m = seen(tree, light(irradiance, sky, depth), 400000);
+    const Moments m = seen(tree, light(irradiance, sky, depth), samples_of(400000));
     CAPTURE(m.mean());
     CAPTURE(expected);
-    CHECK(m.standard_error() < 0.0022 * expected);
+    CHECK(m.standard_error() < 0.22 * (detected(1.01) - 1) * expected);
     CHECK(mean_p_value(m, expected, 2e-4 * expected) > 1e-4);
-    CHECK(mean_p_value(m, expected / 1.01, 2e-4 * expected) < 1e-4);
+    CHECK(mean_p_value(m, expected / detected(1.01), 2e-4 * expected) < 1e-4);
 }
 // Light of the sun alone, without reflections from the ground to itself.
 void check_sun(const std::string& tree, double expected) {
@@ -314,14 +316,14 @@ TEST_CASE("under curved glass and water, and lamps as bright as the sky, white p
                                              std::string(white) + ", " + white + ", " + white + "]}}",
                                          c.tree, lamps);
             const World world(scene);
-            const Moments m = radiance_along(world, scene, {0.8f, -5, 0.4f}, {-0.7f, 5, -0.3f}, 200000)[0];
+            const Moments m = radiance_along(world, scene, {0.8f, -5, 0.4f}, {-0.7f, 5, -0.3f}, samples_of(200000))[0];
             CAPTURE(m.mean());
             CAPTURE(m.standard_error());
-            CHECK(m.standard_error() < 0.003);
+            CHECK(m.standard_error() < 0.3 * (detected(1.01) - 1));
             return mean_p_value(m, 1, 1e-5);
         };
         CHECK(p_value("1.0") > significance);
-        CHECK(p_value("0.99") < significance);
+        CHECK(p_value(phasetree::tests::long_tests() ? "0.99" : "0.98") < significance);
     }
 }
 

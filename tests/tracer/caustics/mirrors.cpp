@@ -96,7 +96,7 @@ TEST_CASE("photons and paths find the same light by mirrors, rough and brushed m
                        "camera": {"position": [0, -0.1, 5], "look_at": [0, 0, 0], "fov": 30},
                        "render": {"width": 24, "height": 24})");
                 // The gathering radius is small, so that no photons from beyond the wall of the tube are gathered.
-                return with(scene, caustics, long_form ? Effort{500, 16, 0.15f} : Effort{48, 6, 0.3f});
+                return with(scene, caustics, long_form ? Effort{500, 16, 0.15f} : Effort{20, 6, 0.3f});
             },
             planted, sidak(1e-4, 2 * cases.size()));
     }
@@ -117,9 +117,9 @@ TEST_CASE("photons and paths find the same light by brushed metal, whichever way
                     R"("lights": [{"spot": {"position": [0.5, 0, 1.5], "target": [-1, 0, 0.7], "cone": 30, "intensity": 30}}],
                        "camera": {"position": [2.5, 2.5, 2.5], "look_at": [0.2, 0.9, 0], "fov": 12},
                        "render": {"width": 16, "height": 16})");
-                return with(scene, caustics, long_form ? Effort{4000, 32, 0.1f} : Effort{120, 8, 0.2f});
+                return with(scene, caustics, long_form ? Effort{4000, 32, 0.1f} : Effort{60, 8, 0.2f});
             },
-            long_form ? 1.05 : 1.25, sidak(1e-4, 2 * 2));
+            long_form ? 1.05 : 1.36, sidak(1e-4, 2 * 2));
     }
 }
 

@@ -47,6 +47,17 @@ Scene rooms(const std::string& more = "") {
             more + "}");
 }
 
+// The rooms without photons, and their guide, which two test cases share: training it takes longer than either.
+struct GuidedRooms {
+    Scene scene = rooms();
+    World world{scene};
+    std::optional<Guide> guide = guide_for(world, scene);
+};
+const GuidedRooms& guided_rooms() {
+    static const GuidedRooms& made = *new GuidedRooms;
+    return made;
+}
+
 // A ray in the room without a lamp.
 const glm::vec3 in_the_dark(0.3f, -2.5f, 1.4f), to_floor(-0.1f, 1.5f, -1.3f);
 
@@ -71,7 +82,7 @@ void check_guided(const Bsdf& bsdf, double significance) {
     int rounded_away = 0;  // to the next square of the tree
     int changed_without_guide = 0, wrong_quotients = 0, wrong_weights = 0;
     const auto is_near = [](float found, float expected) { return std::abs(found - expected) < 1e-3f * expected; };
-    for (int i = 0; i < 400'000; ++i) {
+    for (std::uint32_t i = 0; i < samples_of(400'000); ++i) {
         const float lobe = random();
         const glm::vec2 u = random.two();
         const auto next = guided.sample(lobe, u);
@@ -91,13 +102,13 @@ void check_guided(const Bsdf& bsdf, double significance) {
     CHECK(wrong_quotients == 0);
     CHECK(wrong_weights == 0);
     CHECK(rounded_away < 40);
-    // Both find the same albedo, and an error of 1 % would be detected.
+    // Both find the same albedo, and an error of 1 % would be detected, in the short form one of 2 %.
     const auto p_value = [&](const Moments& other, double factor) {
         const double error = std::hypot(other.standard_error(), without.standard_error());
         return normal_two_sided((factor * other.mean() - without.mean()) / error);
     };
     CHECK(p_value(with_guide, 1) > significance);
-    CHECK(p_value(with_guide, 1.01) < significance);
+    CHECK(p_value(with_guide, detected(1.01)) < significance);
     CHECK((recorded.mean() == doctest::Approx(without.mean()).epsilon(0.003)));
     CHECK(from_the_right.mean() > 0.5);
 }
@@ -152,11 +163,14 @@ TEST_CASE("light counts for the points that the path had left before, divided by
 TEST_CASE("in the next room paths that are guided find the same light with less noise") {
     const double significance = sidak(1e-4, 2);
     const bool is_long = phasetree::tests::long_tests();
-    const std::uint32_t count = is_long ? 120'000 : 50'000;
+    const std::uint32_t count = is_long ? 120'000 : 20'000;
     for (const bool with_photons : {false, true}) {
         CAPTURE(with_photons);
-        const Scene scene = rooms(with_photons ? R"(, "caustics": true)" : "");
-        const World world(scene);
+        const Scene scene = with_photons ? rooms(R"(, "caustics": true)") : guided_rooms().scene;
+        std::optional<World> world_of_photons;
+        if (with_photons) world_of_photons.emplace(scene);
+        const World& world = with_photons ? *world_of_photons : guided_rooms().world;
+        std::optional<Guide> guide = guided_rooms().guide;
         std::optional<Caustics> caustics;
         std::optional<PhotonMap> photons;
         PathHelp help;
@@ -165,8 +179,8 @@ TEST_CASE("in the next room paths that are guided find the same light with less 
             caustics.emplace(world, scene);
             photons = caustics->photons(0, counters, [] { return false; });
             help.photons = {&caustics->emission(), &*photons};
+            guide = guide_for(world, scene, &*caustics);
         }
-        const std::optional<Guide> guide = guide_for(world, scene, caustics ? &*caustics : nullptr);
         REQUIRE(guide.has_value());
         const Moments alone = radiance_along(world, scene, in_the_dark, to_floor, count, 1, help)[0];
         help.guide = &*guide;
@@ -176,7 +190,7 @@ TEST_CASE("in the next room paths that are guided find the same light with less 
         CAPTURE(error / alone.mean());
         CAPTURE(alone.variance() / guided.variance());
         CHECK(normal_two_sided((guided.mean() - alone.mean()) / error) > significance);
-        CHECK(normal_two_sided(((is_long ? 1.1 : 1.15) * guided.mean() - alone.mean()) / error) < significance);
+        CHECK(normal_two_sided(((is_long ? 1.1 : 1.25) * guided.mean() - alone.mean()) / error) < significance);
         CHECK(alone.variance() > 1.4 * guided.variance());
     }
 }
@@ -192,10 +206,11 @@ TEST_CASE("paths that are guided see a radiance of 1 within walls that glow with
            "render": {"width": 32, "height": 32, "guiding": true, "max_depth": 10000})");
     const World world(scene);
     const std::optional<Guide> guide = guide_for(world, scene);
-    const Moments m = radiance_along(world, scene, {0, -0.9f, 0}, {0.5f, 1, 0.3f}, 100'000, 3, {.guide = &*guide})[0];
+    const Moments m =
+        radiance_along(world, scene, {0, -0.9f, 0}, {0.5f, 1, 0.3f}, samples_of(100'000), 3, {.guide = &*guide})[0];
     CHECK(mean_p_value(m, 1, 1e-5) > 1e-4);
-    CHECK(mean_p_value(m, 1.01, 1e-5) < 1e-4);
-    CHECK(m.standard_error() < 0.002);
+    CHECK(mean_p_value(m, detected(1.01), 1e-5) < 1e-4);
+    CHECK(m.standard_error() < 0.2 * (detected(1.01) - 1));
 }
 
 TEST_CASE("a guide that is wrong everywhere costs noise within bounds, and no light") {
@@ -215,7 +230,8 @@ TEST_CASE("a guide that is wrong everywhere costs noise within bounds, and no li
         samples.push_back({at, facing_of(normal), glm::normalize(normal + glm::vec3(0.4f, 0.3f, 0.2f)), 1.0f});
     }
     const Guide guide(samples);
-    const Moments m = radiance_along(world, scene, {0, -0.9f, 0}, {0.5f, 1, 0.3f}, 40'000, 3, {.guide = &guide})[0];
+    const Moments m =
+        radiance_along(world, scene, {0, -0.9f, 0}, {0.5f, 1, 0.3f}, samples_of(80'000), 3, {.guide = &guide})[0];
     CAPTURE(m.mean());
     CAPTURE(m.standard_error());
     CAPTURE(m.variance());
@@ -224,9 +240,7 @@ TEST_CASE("a guide that is wrong everywhere costs noise within bounds, and no li
 }
 
 TEST_CASE("a guide that knows nothing changes no bit, and a good one does not change recorded albedos") {
-    const Scene scene = rooms();
-    const World world(scene);
-    const std::optional<Guide> guide = guide_for(world, scene);
+    const auto& [scene, world, guide] = guided_rooms();
     const Guide nothing;
     PathCounters counters;
     const phasetree::FlushSubnormals flush;

@@ -86,7 +86,7 @@ const glm::vec3 from(0.3f, -4, 0.2f), towards(-0.06f, 1, -0.07f);
 
 TEST_CASE("furnace: paths through what scatters and absorbs nothing are worth 1, each") {
     const phasetree::FlushSubnormals flush;
-    const std::uint32_t count = long_form ? 200000 : 4000;
+    const std::uint32_t count = long_form ? 200000 : 1000;
     const auto farthest_from_1 = [&](const Case& c, const std::string& further) {
         Scene scene = scene_of(phases(c.milk + further), c.tree);
         scene.settings.techniques = Techniques::directions_alone;
@@ -128,7 +128,7 @@ TEST_CASE("furnace: so are paths through two objects of one such phase that touc
         const Ray ray{from, glm::normalize(towards), phasetree::vacuum, {}};
         PathCounters counters;
         double farthest = 0;
-        for (std::uint32_t i = 0; i < 4000; ++i) {
+        for (std::uint32_t i = 0; i < 1000; ++i) {
             Sampler sampler(i, 0, 0, 1);
             const glm::dvec3 radiance(trace_path(world, scene, ray, sampler, counters));
             farthest = std::max(farthest, std::abs((radiance.x + radiance.y + radiance.z) / 3 - 1));
@@ -145,7 +145,7 @@ TEST_CASE("furnace: with shadow rays, and with colours, the mean is 1") {
         CAPTURE(c.name);
         const Scene scene = scene_of(phases(c.milk), c.tree);
         const World world(scene);
-        const auto right = radiance_along(world, scene, from, towards, long_form ? 400000 : 20000);
+        const auto right = radiance_along(world, scene, from, towards, long_form ? 400000 : 8000);
         for (std::size_t channel = 0; channel < 3; ++channel) {
             CAPTURE(channel);
             CAPTURE(right[channel].mean());
@@ -173,7 +173,7 @@ TEST_CASE("shadow rays alone, sampled directions alone, and both find the same l
             const World world(scene);
             return radiance_along(world, scene, from, towards, count);
         };
-        const std::uint32_t count = long_form ? 400000 : 20000;
+        const std::uint32_t count = long_form ? 400000 : 8000;
         const auto both = by(Techniques::all, count);
         for (const Techniques alone : {Techniques::shadow_rays_alone, Techniques::directions_alone}) {
             const auto found = by(alone, 2 * count);
@@ -181,7 +181,7 @@ TEST_CASE("shadow rays alone, sampled directions alone, and both find the same l
                 CAPTURE(c);
                 const double error = std::hypot(both[c].standard_error(), found[c].standard_error());
                 CHECK(phasetree::tests::normal_two_sided((both[c].mean() - found[c].mean()) / error) > significance);
-                CHECK(error < (long_form ? 0.01 : 0.045) * both[c].mean());
+                CHECK(error < (long_form ? 0.01 : 0.07) * both[c].mean());
             }
         }
     }

@@ -161,11 +161,11 @@ TEST_CASE("photons and paths find the same light on bumps") {
                 R"("lights": [{"sphere": {"centre": [-1.6, 0, 3], "radius": 0.4, "radiance": [20, 20, 20]}}],
                    "camera": {"position": [0, -5, 3], "look_at": [0, 0, -1], "fov": 45},
                    "render": {"width": 40, "height": 32})");
-            scene.settings.samples = long_form ? 256 : 80;
+            scene.settings.samples = long_form ? 256 : 40;
             scene.settings.caustics = caustics;
             return scene;
         },
-        long_form ? 1.05 : 1.09, sidak(1e-4, 2));
+        long_form ? 1.05 : 1.13, sidak(1e-4, 2));
 }
 
 }  // namespace test_bump

@@ -10,6 +10,7 @@
 #include "phasetree/math/float_mode.hpp"
 #include "render/render.hpp"
 #include "scene/scene.hpp"
+#include "support/long_tests.hpp"
 #include "support/statistics.hpp"
 
 namespace phasetree::tracer::tests {
@@ -17,6 +18,16 @@ namespace phasetree::tracer::tests {
 using phasetree::tests::mean_p_value;
 using phasetree::tests::Moments;
 using phasetree::tests::sidak;
+
+// A comparison takes `count` samples in the long form. The short form takes a quarter of them: its standard error is
+// twice as large, and so is the error that it must detect.
+inline std::uint32_t samples_of(std::uint32_t count) {
+    return phasetree::tests::long_tests() ? count : count / 4;
+}
+// The factor that the form detects, if the long form detects this one.
+inline double detected(double factor) {
+    return phasetree::tests::long_tests() ? factor : 1 + 2 * (factor - 1);
+}
 
 inline constexpr const char* white_environment = R"("lights": [{"constant": {}}])";
 

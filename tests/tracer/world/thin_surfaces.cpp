@@ -264,7 +264,7 @@ TEST_CASE("photons pass panes, are mirrored by them, and land on sheets") {
                     R"({"set": {"phase": "glass", "of": {"translate": {"by": [0, 0, 0.9], "of": {"sphere": {"radius": 0.4}}}}}})",
                     R"("glass": {"clear": {"ior": 1.5}})");
                 scene.settings.caustics = caustics;
-                scene.settings.samples = long_form ? 500 : 48;
+                scene.settings.samples = long_form ? 500 : 20;
                 scene.settings.photons = long_form ? 16.0f : 6.0f;
                 scene.settings.photon_radius = long_form ? 0.1f : 0.2f;
                 return scene;

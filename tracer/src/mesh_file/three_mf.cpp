@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <vector>
 
 #include "mesh_file/zip.hpp"
 
@@ -15,6 +16,7 @@ constexpr const char* content_types =
 <Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
 <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
 <Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
+<Default Extension="config" ContentType="application/xml"/>
 </Types>
 )";
 constexpr const char* relationships =
@@ -46,47 +48,80 @@ std::string in_xml(std::string_view text) {
     return result;
 }
 
-std::string model_of(const MeshedObject& object) {
-    const std::vector<Phase> phases = object.phases();
-    std::string text = R"(<?xml version="1.0" encoding="UTF-8"?>
+constexpr int materials_id = 1, object_id = 2;
+
+// Writes one mesh with the surfaces of all parts, and collects what PrusaSlicer needs to tell them apart. It would load
+// the components of an object as separate objects.
+class Writer {
+  public:
+    explicit Writer(const MeshedObject& object) : object_(object), phases_(object.phases()) {
+        for (const Phase phase : phases_) add(phase);
+    }
+
+    std::string model() const {
+        std::string text = R"(<?xml version="1.0" encoding="UTF-8"?>
 <model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
 <metadata name="Application">phasetree</metadata>
 <resources>
-<basematerials id="1">
 )";
-    auto out = std::back_inserter(text);
-    for (const Phase phase : phases) {
-        const Look& look = object.look(phase);
-        const auto c = shown_color(look);
-        fmt::format_to(out, "<base name=\"{}\" displaycolor=\"#{:02X}{:02X}{:02X}\"/>\n", in_xml(look.name), c[0], c[1],
-                       c[2]);
-    }
-    text += "</basematerials>\n";
-    for (std::size_t i = 0; i < phases.size(); ++i) {
-        const ClosedMesh mesh = surface_of(object.mesh, PhaseSet::of(phases[i]));
+        auto out = std::back_inserter(text);
+        fmt::format_to(out, "<basematerials id=\"{}\">\n", materials_id);
+        for (const Phase phase : phases_) {
+            const Look& look = object_.look(phase);
+            const auto c = shown_color(look);
+            fmt::format_to(out, "<base name=\"{}\" displaycolor=\"#{:02X}{:02X}{:02X}\"/>\n", in_xml(look.name), c[0],
+                           c[1], c[2]);
+        }
         fmt::format_to(out,
-                       "<object id=\"{}\" type=\"model\" name=\"{}\" pid=\"1\" pindex=\"{}\">\n<mesh>\n<vertices>\n",
-                       i + 2, in_xml(object.look(phases[i]).name), i);
-        for (const glm::vec3& v : mesh.vertices)
-            fmt::format_to(out, "<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n", v.x, v.y, v.z);
-        text += "</vertices>\n<triangles>\n";
-        for (const auto& t : mesh.triangles)
-            fmt::format_to(out, "<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n", t[0], t[1], t[2]);
-        text += "</triangles>\n</mesh>\n</object>\n";
+                       "</basematerials>\n<object id=\"{}\" type=\"model\" pid=\"{}\" "
+                       "pindex=\"0\">\n<mesh>\n<vertices>\n{}</vertices>\n<triangles>\n{}</triangles>\n"
+                       "</mesh>\n</object>\n</resources>\n<build>\n<item objectid=\"{}\"/>\n</build>\n</model>\n",
+                       object_id, materials_id, vertices_, triangles_, object_id);
+        return text;
     }
-    const std::size_t whole = phases.size() + 2;
-    fmt::format_to(out, "<object id=\"{}\" type=\"model\">\n<components>\n", whole);
-    for (std::size_t i = 0; i < phases.size(); ++i) fmt::format_to(out, "<component objectid=\"{}\"/>\n", i + 2);
-    fmt::format_to(
-        out, "</components>\n</object>\n</resources>\n<build>\n<item objectid=\"{}\"/>\n</build>\n</model>\n", whole);
-    return text;
-}
+    std::string parts() const {
+        return fmt::format(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<config>\n<object id=\"{}\">\n{}</object>\n</config>\n",
+            object_id, parts_);
+    }
+
+  private:
+    void add(Phase phase) {
+        const ClosedMesh mesh = surface_of(object_.mesh, PhaseSet::of(phase));
+        for (const glm::vec3& v : mesh.vertices)
+            fmt::format_to(std::back_inserter(vertices_), "<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n", v.x, v.y, v.z);
+        for (const auto& t : mesh.triangles)
+            fmt::format_to(std::back_inserter(triangles_),
+                           "<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\" pid=\"{}\" p1=\"{}\"/>\n", t[0] + vertex_count_,
+                           t[1] + vertex_count_, t[2] + vertex_count_, materials_id, part_count_);
+        if (mesh.triangles.empty()) return;
+        // Each part has an extruder of its own, numbered from 1.
+        fmt::format_to(std::back_inserter(parts_),
+                       "<volume firstid=\"{}\" lastid=\"{}\">\n"
+                       "<metadata type=\"volume\" key=\"name\" value=\"{}\"/>\n"
+                       "<metadata type=\"volume\" key=\"volume_type\" value=\"ModelPart\"/>\n"
+                       "<metadata type=\"volume\" key=\"extruder\" value=\"{}\"/>\n</volume>\n",
+                       triangle_count_, triangle_count_ + mesh.triangles.size() - 1, in_xml(object_.look(phase).name),
+                       part_count_ + 1);
+        vertex_count_ += mesh.vertices.size();
+        triangle_count_ += mesh.triangles.size();
+        ++part_count_;
+    }
+
+    const MeshedObject& object_;
+    std::vector<Phase> phases_;
+    std::string vertices_, triangles_, parts_;
+    std::size_t vertex_count_ = 0, triangle_count_ = 0, part_count_ = 0;
+};
 
 }  // namespace
 
 std::string three_mf_of(const MeshedObject& object) {
-    const ZipFile files[] = {
-        {"[Content_Types].xml", content_types}, {"_rels/.rels", relationships}, {"3D/3dmodel.model", model_of(object)}};
+    const Writer writer(object);
+    const ZipFile files[] = {{"[Content_Types].xml", content_types},
+                             {"_rels/.rels", relationships},
+                             {"3D/3dmodel.model", writer.model()},
+                             {"Metadata/Slic3r_PE_model.config", writer.parts()}};
     return zip_of(files);
 }
 

@@ -66,19 +66,43 @@ struct Face {
     }
 };
 /// Layout: one end; the vector to the other end; 1 over its squared length; the normal; the largest angle between it
-/// and the normals of the two faces; and how far its region extends beyond its ends, as a fraction of its length.
+/// and the normals of the two faces; and three numbers that limit the directions of the region: `bend`, the square of a
+/// cosine, and a length.
+///
+/// An edge is nearest only to points in directions between the normals of its two faces, on the outside if it is
+/// convex, or in the opposite directions, on the inside if it is concave: elsewhere one of the faces is nearer. With
+/// the angle β between the edge's normal and those of the faces, the height over the edge, h = normal · away, is then
+/// at least cos β · |away|, or at most the negative of that.
+///
+/// Beside the end of a spike, another piece is nearest, but by so little that an edge may win by rounding, with a
+/// height of the wrong sign. So the region is limited to ±h ≥ f cos β · |away| − s, where s bounds the rounding errors:
+///
+/// * Of a bent edge, with an angle of at least 30° between the normals of its faces, the sign is + if the edge is
+/// convex
+///   and − if it is concave, and f is ½. Farther than 2 s/cos β from the edge, the sign of h is certain.
+/// * An edge that is nearly straight may be nearest, up to rounding, to points on both sides. The sign is that of h,
+/// and
+///   f is 0.9, which excludes points beside the edge, where the sign of h is that of its rounding error.
+///
+/// ±h is computed as |h| + bend · h, which is twice as much for bent edges, like the stored numbers. Every point to
+/// which the edge is nearest stays in the region, because s exceeds the errors in proportion to the edge's length, and
+/// (1 − f) cos β those in proportion to |away|. Directions are not limited (by a cosine of 0) for open edges, for edges
+/// of faces without area, and where the surface folds back.
 struct Edge {
     static constexpr PieceKind kind = PieceKind::edge;
-    static constexpr std::size_t end = 0, vector = 3, inverse = 6, normal = 7, largest_angle = 10, slack = 11,
-                                 floats = 12;
+    static constexpr std::size_t end = 0, vector = 3, inverse = 6, normal = 7, largest_angle = 10, bend = 11,
+                                 squared_cosine = 12, length = 13, floats = 14;
+    static constexpr float slack = 0x1p-22f;  ///< how far the region extends beyond its ends, in lengths of the edge
 
     template <class T>
     static Told<T> tell(const float* piece, const Vec3<T>& p) {
         const Vec3<T> q = from(piece + end, p);
         const T t = along(piece + vector, q) * piece[inverse];
         const Vec3<T> away{q.x - t * piece[vector], q.y - t * piece[vector + 1], q.z - t * piece[vector + 2]};
-        return {select(less(min(t, 1.f - t), T(-piece[slack])), T(nowhere), dot(away, away)),
-                along(piece + normal, away)};
+        const T squared = dot(away, away), height = along(piece + normal, away);
+        const T most = abs(height) + height * piece[bend] + piece[length];
+        const T squared_where_allowed = select(less(most * most, squared * piece[squared_cosine]), T(nowhere), squared);
+        return {select(less(min(t, 1.f - t), T(-slack)), T(nowhere), squared_where_allowed), height};
     }
 };
 /// Layout: the position; the normal; and the largest angle between it and the normals of the adjacent faces.
