@@ -270,6 +270,8 @@ inline void compare_isolated(const Phased& object, const Walk& walk, std::span<c
         if (!is_smooth(object, o + t * d, n, exact[i - 1].phase, exact[i].phase, 1e-5 * size)) continue;
         for (const PreciseCrossing& c : walk.crossings) {
             if (std::abs(c.t_to - t) > 0.5 * apart) continue;
+            // Within rounding errors of a face, the ray may be in any phase that meets there. compare() judges that.
+            if (c.from != exact[i - 1].phase || c.to != exact[i].phase) continue;
             ++totals.normals;
             const bool is_off = std::abs(c.t_to - t) > tolerance / cosine;
             const bool is_turned = glm::length(glm::cross(c.normal, n)) > 1e-6 + 1e3 * tolerance / size;
