@@ -49,6 +49,11 @@ TEST_CASE("the oldest steps are dropped when the history needs too much memory")
     while (history.undo()) ++undone;
     CHECK(undone > 3);
     CHECK(undone < 20);
+    History gestures("a", 20000);
+    for (int i = 0; i < 100; ++i) gestures.add(i % 2 == 0 ? "b" : "a", "", std::string(1000, 'm') + std::to_string(i));
+    for (undone = 0; gestures.undo();) ++undone;
+    CHECK(undone > 3);
+    CHECK(undone < 20);
     History huge("", 100);
     huge.add(std::string(5000, 'x'), "large");
     CHECK(huge.undo());

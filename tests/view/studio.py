@@ -277,11 +277,29 @@ class Catalogue(unittest.TestCase):
                 self.assertEqual(view.get(name).status, 404, name)
 
 
+    def test_colours_of_measured_substances(self):
+        with View() as view:
+            told = json.loads(view.get("catalogue").body)
+            colours = {one["name"]: one for one in told["measured_colors"]}
+            choices = {p["name"]: p["choices"] for kind in told["kinds"] if kind["type"] == "material" for p in kind["parameters"]}
+            for name in choices["metal"]:
+                if name != "aluminum":
+                    self.assertEqual(colours[name]["group"], "metals")
+            for name in choices["medium"]:
+                self.assertEqual(colours[name]["group"], "materials")
+            # The diffuse reflectance in figure 5 of Jensen et al. 2001.
+            for name, expected in (("whole_milk", (0.91, 0.88, 0.76)), ("ketchup", (0.16, 0.01, 0))):
+                for x, y in zip(colours[name]["color"], expected):
+                    self.assertAlmostEqual(x, y, delta=0.006)
+            red, green, blue = colours["gold"]["color"]
+            self.assertTrue(1 > red > green > blue > 0.2, (red, green, blue))
+
+
 class Hostile(unittest.TestCase):
     def test_wrong_requests_are_refused_and_nothing_changes(self):
         with View() as view:
             good = {"base": 1, "label": "x", "operations": [{"set": RADIUS, "to": "1"}]}
-            for change in ({"base": -1}, {"base": "1"}, {"base": 1e300}, {"label": 1}, {"label": "x" * 300}, {"merge": 1},
+            for change in ({"base": -1}, {"base": "1"}, {"base": 1e300}, {"label": 1}, {"label": "x" * 300}, {"merge": 1}, {"merge": "x" * 201},
                            {"operations": 1}, {"operations": [1]}, {"operations": [{}]}, {"operations": [{"set": RADIUS}]},
                            {"operations": [{"set": RADIUS, "to": 1}]}, {"operations": [{"set": RADIUS, "to": ""}]},
                            {"operations": [{"set": RADIUS, "to": "[" * 100000}]}, {"operations": [{"set": "x", "to": "1"}]},

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "phasetree/model/handle.hpp"
+#include "phasetree/model/poll_preparation.hpp"
 #include "phasetree_support/mixed_hash.hpp"
 
 namespace phasetree::program {
@@ -62,6 +63,9 @@ std::uint32_t InstructionList::emit(Op op, std::uint32_t a, std::uint32_t b, std
 }
 
 void InstructionList::work(std::size_t steps) {
+    // Recording the largest programs takes seconds.
+    constexpr std::size_t between_polls = std::size_t{1} << 16;
+    if ((work_ + steps) / between_polls != work_ / between_polls) poll_preparation();
     work_ += steps;
     if (work_ > most_work_for_one * limit_)
         throw ModelError(fmt::format(

@@ -15,6 +15,7 @@
 #include "phasetree/io/keys.hpp"
 #include "phasetree/model/poll_preparation.hpp"
 #include "scene/camera_text.hpp"
+#include "studio/hidden_parts.hpp"
 #include "volume/read_volume.hpp"
 
 namespace phasetree::tracer {
@@ -49,6 +50,14 @@ class KeptDisplays {
     std::map<float, DisplayTransform> displays_;  // by exposure
 };
 
+// What is kept from reading to reading.
+struct KeptForReading {
+    std::shared_ptr<KeptDisplays> displays;
+    std::shared_ptr<KeptNodes> nodes = std::make_shared<KeptNodes>();
+    KeptImages images{};
+    studio::Vocabulary vocabulary{};
+};
+
 namespace {
 
 // Adds a file that the scene may name. Only the readers know which strings are file names, so every string with a dot
@@ -76,11 +85,18 @@ void add_named_files(const Document& document, Value value, view::WatchedFiles& 
     for (const Value child : value) add_named_files(document, child, files);
 }
 
-Document with_edits(const SceneFile& scene, const Document& document, const view::NumberEdits& numbers) {
-    if (numbers.empty()) return document;
-    const Document edited =
-        Document::from_text(view::with_numbers(document, numbers), document.name()).at(document.seconds());
+Document with_text(const SceneFile& scene, const Document& document, std::string text) {
+    const Document edited = Document::from_text(std::move(text), document.name()).at(document.seconds());
     return scene.assets_within ? edited.with_files_within(*scene.assets_within) : edited;
+}
+
+Document with_edits(const SceneFile& scene, const Document& document, const view::NumberEdits& numbers) {
+    return numbers.empty() ? document : with_text(scene, document, view::with_numbers(document, numbers));
+}
+
+Document without(const SceneFile& scene, const Document& document, const std::vector<std::string>& hidden,
+                 const studio::Vocabulary& vocabulary) {
+    return hidden.empty() ? document : with_text(scene, document, studio::text_without(document, vocabulary, hidden));
 }
 
 // Objects in files of their own may have keys that the scene file does not know about. The time can still be set with
@@ -92,17 +108,34 @@ std::optional<view::TimeSpan> span_of_keys(const Document& document) {
     return first < last ? std::optional(view::TimeSpan{first, last}) : std::nullopt;
 }
 
-view::ViewedScene read_viewed(const ViewedFile& file, const Document& in_file, const std::shared_ptr<KeptNodes>& kept,
-                              KeptImages* images, const std::shared_ptr<KeptDisplays>& displays,
+// The parts of a text that are hidden, though they were named in another text.
+view::HiddenParts hidden_in(const ViewedFile& file, const Document& in_file, const view::HiddenParts& desired) {
+    if (desired.pointers.empty()) return {};
+    view::HiddenParts hidden{desired.pointers, std::make_shared<const std::string>(in_file.text())};
+    if (!desired.text || *desired.text == *hidden.text) return hidden;
+    try {
+        const Document before = Document::from_text(*desired.text, file.scene.name);
+        hidden.pointers = studio::pointers_after(before, in_file, desired.pointers);
+    } catch (const SceneError&) {
+        hidden.pointers.clear();
+    }
+    return hidden;
+}
+
+view::ViewedScene read_viewed(const ViewedFile& file, const Document& in_file, KeptForReading& kept,
                               view::WatchedFiles& files, const view::Reading& desired) {
     const view::NumberEdits& numbers = desired.numbers;
-    kept->start();
-    const KeptImages::Use use(*images);
-    const Document document = with_edits(file.scene, in_file, numbers).with_kept_nodes(kept);
+    const std::shared_ptr<KeptDisplays> displays = kept.displays;
+    kept.nodes->start();
+    const KeptImages::Use use(kept.images);
+    view::HiddenParts hidden = hidden_in(file, in_file, desired.hidden);
+    const Document document =
+        without(file.scene, with_edits(file.scene, in_file, numbers), hidden.pointers, kept.vocabulary)
+            .with_kept_nodes(kept.nodes);
     add_named_files(document, document.root(), files);
     NodePlaces places;
     Scene scene = load_scene(document, &places);
-    kept->finish();
+    kept.nodes->finish();
     std::string warnings;
     for (const std::string& warning : warnings_of_unplaced_groups(document, scene.placed)) warnings += warning + "\n";
     make_one_tree(document, scene);
@@ -118,7 +151,8 @@ view::ViewedScene read_viewed(const ViewedFile& file, const Document& in_file, c
             std::move(places),
             std::move(warnings),
             document.seconds(),
-            span_of_keys(document)};
+            span_of_keys(document),
+            std::move(hidden)};
 }
 
 // Waits for a mutex. Throws PreparationCancelled.
@@ -134,24 +168,24 @@ std::unique_lock<std::timed_mutex> locked(std::timed_mutex& mutex) {
 // session, which reads the same text next if the step is made.
 class SceneReadings {
   public:
-    explicit SceneReadings(std::shared_ptr<KeptDisplays> displays) : displays_(std::move(displays)) {}
+    explicit SceneReadings(std::shared_ptr<KeptDisplays> displays) : kept_{.displays = std::move(displays)} {}
 
     void check(const ViewedFile& file, const Document& document) {
         const std::unique_lock lock = locked(mutex_);
         Checked checked{document.text(), {}, {}};
-        checked.scene = read_viewed(file, document, kept_, &images_, displays_, checked.files, {});
+        checked.scene = read_viewed(file, document, kept_, checked.files, {});
         checked_ = std::move(checked);
     }
     view::ViewedScene read(const ViewedFile& file, const Document& document, view::WatchedFiles& files,
                            const view::Reading& desired) {
         const std::unique_lock lock = locked(mutex_);
-        const bool is_as_checked = desired.numbers.empty() && !desired.seconds;
+        const bool is_as_checked = desired.numbers.empty() && !desired.seconds && desired.hidden.pointers.empty();
         if (auto known = std::exchange(checked_, std::nullopt);
             known && is_as_checked && known->text == document.text()) {
             files = std::move(known->files);
             return std::move(*known->scene);
         }
-        return read_viewed(file, document, kept_, &images_, displays_, files, desired);
+        return read_viewed(file, document, kept_, files, desired);
     }
 
   private:
@@ -161,9 +195,7 @@ class SceneReadings {
         view::WatchedFiles files;
     };
     std::timed_mutex mutex_;
-    const std::shared_ptr<KeptNodes> kept_ = std::make_shared<KeptNodes>();
-    const std::shared_ptr<KeptDisplays> displays_;
-    KeptImages images_;
+    KeptForReading kept_;
     std::optional<Checked> checked_;
 };
 
@@ -181,13 +213,27 @@ std::unique_ptr<studio::EditedDocument> ViewedFile::document(bool saves) const {
         studio::EditedDocument::Options{.file = scene.name, .saves = saves, .parse = parse, .check = check});
 }
 
+namespace {
+
+void check_text(const ViewedFile& file, studio::EditedDocument& document, const studio::DocumentState& state) {
+    try {
+        file.readings->check(file, *state.document);
+        document.record_check(state.text_version, {});
+    } catch (const SceneError& e) {
+        document.record_check(state.text_version, e);
+    }
+}
+
+}  // namespace
+
 view::ReadScene ViewedFile::reader(studio::EditedDocument& document) const {
     const auto read = [file = *this, &document](view::WatchedFiles& files, const view::Reading& desired) {
         const auto state = document.state();
         if (state->unreadable) throw *state->unreadable;
         if (!state->document) throw state->error.value();
-        // If the page replaced numbers, they may be what is wrong, so the text's check is not recorded.
-        const bool is_of_text = desired.numbers.empty();
+        // If the page replaced numbers or hid parts, these may be what is wrong, so the text's check is not recorded.
+        const bool is_of_text = desired.numbers.empty() && desired.hidden.pointers.empty();
+        if (!desired.hidden.pointers.empty() && !state->is_checked) check_text(file, document, *state);
         try {
             const Document text = desired.seconds ? state->document->at(*desired.seconds) : *state->document;
             view::ViewedScene scene = file.readings->read(file, text, files, desired);
@@ -198,15 +244,8 @@ view::ReadScene ViewedFile::reader(studio::EditedDocument& document) const {
             throw;
         }
     };
-    if (const auto state = document.state(); state->document) {
-        try {
-            readings->check(*this, *state->document);
-            document.record_check(state->text_version, {});
-        } catch (const SceneError& e) {
-            // The session reports it, and the page can repair the scene.
-            document.record_check(state->text_version, e);
-        }
-    }
+    // The session reports errors, and the page can repair the scene.
+    if (const auto state = document.state(); state->document) check_text(*this, document, *state);
     return read;
 }
 

@@ -10,7 +10,9 @@ thread_local KeptImages* images_of_thread = nullptr;
 
 }  // namespace
 
-KeptImages::Use::Use(KeptImages& images) : before_(std::exchange(images_of_thread, &images)) {}
+KeptImages::Use::Use(KeptImages& images) : before_(std::exchange(images_of_thread, &images)) {
+    images.forget_unused();
+}
 
 KeptImages::Use::~Use() {
     images_of_thread = before_;
@@ -41,9 +43,13 @@ std::shared_ptr<const TextureImage> KeptImages::get(const std::pair<std::string,
     if (const auto known = images_.find(key); known != images_.end() && known->second.state == state)
         if (std::shared_ptr<const TextureImage> image = known->second.image.lock()) return image;
     std::shared_ptr<const TextureImage> image = load();
-    std::erase_if(images_, [](const auto& kept) { return kept.second.image.expired(); });
+    forget_unused();
     images_[key] = {state, image};
     return image;
+}
+
+void KeptImages::forget_unused() {
+    std::erase_if(images_, [](const auto& kept) { return kept.second.image.expired(); });
 }
 
 }  // namespace phasetree::tracer

@@ -50,6 +50,7 @@ class KeptImages {
         std::weak_ptr<const TextureImage> image;
     };
 
+    void forget_unused();
     static State state_of(const std::filesystem::path& file);
     std::shared_ptr<const TextureImage> get(const std::pair<std::string, ImageMeaning>& key, const State& state,
                                             const Load& load);

@@ -25,9 +25,10 @@ std::shared_ptr<const DielectricSurface> SharedSurfaces::dielectric(float ior_fr
     return found_or_made(dielectrics_, Dielectric{ior_from, ior_to, roughness, film}, [&] {
         const auto other = std::ranges::find(dielectrics_, Dielectric{ior_to, ior_from, roughness, film},
                                              &decltype(dielectrics_)::value_type::first);
-        return other != dielectrics_.end()
-                   ? std::make_shared<const DielectricSurface>(other->second->reversed())
-                   : std::make_shared<const DielectricSurface>(ior_from, ior_to, roughness, film, films_);
+        if (other != dielectrics_.end()) return std::make_shared<const DielectricSurface>(other->second->reversed());
+        return found_or_made(computed_dielectrics_, Dielectric{ior_from, ior_to, roughness, film}, [&] {
+            return std::make_shared<const DielectricSurface>(ior_from, ior_to, roughness, film, films_);
+        });
     });
 }
 
@@ -84,6 +85,7 @@ void SharedSurfaces::begin_scene() {
         std::erase_if(made, [](const auto& one) { return one.second.use_count() == 1; });
     };
     dielectrics_.clear();
+    forget_unused(computed_dielectrics_);
     forget_unused(conductors_);
     forget_unused(metals_of_reflectance_);
     forget_unused(metal_losses_);

@@ -19,8 +19,8 @@ namespace phasetree::tracer {
 /// Used by one thread while a scene's interfaces are made. It may be kept between scenes that differ little.
 class SharedSurfaces {
   public:
-    /// Call this between scenes. Discards surfaces that are no longer in use elsewhere, and all dielectrics: they are
-    /// made from one another, so their last bits would depend on earlier scenes. Their films are kept.
+    /// Call this between scenes. Discards surfaces that are no longer in use elsewhere. A scene's surfaces have the
+    /// same bits whatever scenes came before.
     void begin_scene();
     std::shared_ptr<const DielectricSurface> dielectric(float ior_from, float ior_to,
                                                         const std::optional<ValueRange>& roughness,
@@ -78,7 +78,10 @@ class SharedSurfaces {
         bool operator==(const MetalLosses&) const = default;
     };
 
+    // The dielectrics of this scene. Which side of an interface is asked for first decides which of its two surfaces is
+    // computed and which is the other one reversed, and so their last bits.
     Made<Dielectric, DielectricSurface> dielectrics_;
+    Made<Dielectric, DielectricSurface> computed_dielectrics_;  // also of earlier scenes; none is a reversed one
     Made<Conductor, ConductorSurface> conductors_;
     Made<MetalOfReflectance, ConductorSurface> metals_of_reflectance_;
     Made<MetalLosses, LossTables> metal_losses_;

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "studio/measured_colours.hpp"
 #include "studio/templates.hpp"
 
 namespace phasetree::tracer::studio {
@@ -113,6 +114,11 @@ std::string written_catalogue(const Vocabulary& vocabulary, const std::optional<
     Json json;
     json["kinds"] = Json::array();
     for (const CatalogueKind& kind : vocabulary.kinds()) json["kinds"].push_back(kind_json(kind, pictures));
+    json["measured_colors"] = Json::array();
+    for (const MeasuredColour& colour : measured_colours()) {
+        const glm::vec3& c = colour.reflectance;
+        json["measured_colors"].push_back({{"name", colour.name}, {"group", colour.group}, {"color", {c.x, c.y, c.z}}});
+    }
     json["placeholders"] = {{"phase", phase_placeholder},
                             {"other_phase", other_phase_placeholder},
                             {"file", file_placeholder},

@@ -37,7 +37,9 @@ class History {
         std::size_t offset = 0;
         std::string before, after;
 
-        std::size_t bytes() const { return sizeof(Step) + label.size() + before.size() + after.size(); }
+        std::size_t bytes() const {
+            return sizeof(Step) + label.size() + (merge ? merge->size() : 0) + before.size() + after.size();
+        }
     };
 
     static Step step_between(const std::string& before, const std::string& after);

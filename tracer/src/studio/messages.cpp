@@ -156,8 +156,10 @@ EditRequest read_edit_request(const std::string& text) {
     request.label = reader.required<std::string>("label");
     if (request.label.size() > 200)
         throw document.error(reader.required_value("label"), "\"label\" is longer than 200 bytes");
-    if (const auto merge = reader.value("merge"); merge && !merge->is_null())
+    if (const auto merge = reader.value("merge"); merge && !merge->is_null()) {
         request.merge = as<std::string>(document, *merge, "\"merge\"");
+        if (request.merge->size() > 200) throw document.error(*merge, "\"merge\" is longer than 200 bytes");
+    }
     request.is_strict = reader.optional<bool>("strict", false);
     const Value operations = reader.required_value("operations");
     if (!operations.is_array()) throw document.error(operations, "\"operations\" must be a list");

@@ -15,6 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* name_of_request = "<request>";
+constexpr std::size_t most_selected = 500;
 constexpr Range exposures{-50, 50}, fractions{0, 1}, times{-1e9, 1e9}, indices{1, 4}, lengths{-1e6, 1e6};
 
 Json list(const glm::vec3& v) {
@@ -102,6 +103,10 @@ Change read_change(const std::string& text, const Shown& shown) {
         for (const Value number : *numbers)
             change.numbers->emplace(number.key(), as<double>(document, number, "a number"));
     }
+    change.hidden_parts = reader.maybe<std::vector<std::string>>("hidden_parts");
+    if (change.hidden_parts && change.hidden_parts->size() > most_selected)
+        throw document.error(reader.required_value("hidden_parts"),
+                             fmt::format("at most {} parts may be hidden", most_selected));
     if (const auto seconds = reader.value("time")) change.seconds = as<double>(document, *seconds, "the time", times);
     change.layer = reader.maybe<std::string>("layer");
     if (change.layer && !change.layer->empty() &&
@@ -119,6 +124,33 @@ glm::vec2 read_place(const std::string& text, const Shown& shown) {
     const float y = reader.required<float>("y", {0, static_cast<double>(shown.resolution.y)});
     reader.finish();
     return {x, y};
+}
+
+SelectedParts read_selected(const std::string& text) {
+    const Document document = Document::from_text(text, name_of_request);
+    ObjectReader reader(document, document.root(), "the selection");
+    SelectedParts parts{reader.required<std::vector<std::string>>("pointers"),
+                        reader.required<std::vector<std::string>>("phases")};
+    if (parts.pointers.size() + parts.phases.size() > most_selected)
+        throw document.error(document.root(), fmt::format("a selection may have at most {} parts", most_selected));
+    reader.finish();
+    return parts;
+}
+
+std::string written(const SelectionMask& mask) {
+    Json json{{"picture", mask.picture}, {"width", mask.size.x}, {"height", mask.size.y}, {"runs", Json::array()}};
+    std::size_t run = 0;
+    bool is_selected = false;
+    for (const bool pixel : mask.is_selected) {
+        if (pixel != is_selected) {
+            json["runs"].push_back(run);
+            run = 0;
+            is_selected = pixel;
+        }
+        ++run;
+    }
+    json["runs"].push_back(run);
+    return line(json);
 }
 
 std::string written(const Shown& shown) {
@@ -139,6 +171,7 @@ std::string written(const Shown& shown) {
     json["layers"] = Json::array();
     for (const FilmLayer& layer : shown.layers) json["layers"].push_back(layer.name);
     json["numbers"] = shown.numbers;
+    json["hidden_parts"] = shown.hidden_parts;
     json["numbers_version"] = shown.numbers_version;
     json["time"] = shown.seconds;
     json["times"] = Json();

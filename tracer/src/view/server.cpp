@@ -17,6 +17,7 @@
 #include "phasetree/model/handle.hpp"
 #include "view/access.hpp"
 #include "view/connection.hpp"
+#include "view/freed_memory.hpp"
 #include "view/grab.hpp"
 #include "view/page_files.hpp"
 #include "view/requests.hpp"
@@ -37,7 +38,7 @@ constexpr const char* json = "application/json";
 // The names that accept POST, in addition to the studio's.
 constexpr std::string_view posted[] = {"change", "ask", "write", "write_numbers"};
 // What is posted only if the scene is in a file.
-constexpr std::string_view posted_for_files[] = {"grab", "drag"};
+constexpr std::string_view posted_for_files[] = {"grab", "drag", "selected"};
 constexpr std::uint64_t most_bytes_of_small_body = 64 * 1024;
 
 std::string type_of(std::string_view file) {
@@ -157,6 +158,8 @@ class Answers {
                 response.set_content(grabs_->grab(request.body, *shown), json);
             } else if (name == "drag") {
                 response.set_content(grabs_->drag(request.body, *shown), json);
+            } else if (name == "selected" && shown->picture) {
+                response.set_content(written(selection_mask(*shown->picture, read_selected(request.body))), json);
             } else if (shown->picture) {
                 const glm::vec2 place = read_place(request.body, *shown);
                 response.set_content(written(probe(*shown->picture, place)), json);
@@ -203,6 +206,10 @@ class Answers {
                                                   may_wait ? longest_wait : std::chrono::milliseconds(0), response);
             --waiting_;
             return is_answered;
+        }
+        if (studio_ && name == "files") {
+            studio_->files(request.get_param_value("type"), request.get_param_value("kind"), response);
+            return true;
         }
         if (name == "numbers") {
             const std::shared_ptr<const Shown> shown = session_.shown();
@@ -299,7 +306,9 @@ void serve(Session& session, const ServeOptions& options) {
         has_ended = true;
     });
     options.serving(access.url());
+    FreedMemory freed;
     while (!options.is_over()) {
+        freed.poll(session.shown()->version);
         session.look_at_files();
         if (options.document) options.document->poll_file();
         std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -12,9 +12,10 @@ namespace phasetree::tracer::view {
 namespace {
 
 // The page's controls must not jump back to earlier values.
-void show_desired(const Edits& edits, const NumberEdits& numbers, Shown& shown) {
+void show_desired(const Edits& edits, const Reading& read_as, Shown& shown) {
     shown.cut = edits.cut;
-    shown.numbers = numbers;
+    shown.numbers = read_as.numbers;
+    shown.hidden_parts = read_as.hidden.pointers;
     for (ShownPhase& phase : shown.phases) {
         phase.is_hidden = std::ranges::find(edits.hidden, phase.name) != edits.hidden.end();
         const auto look = edits.looks.find(phase.name);
@@ -46,7 +47,7 @@ void Session::show(const std::function<void(Shown&)>& edit) {
 void Session::show_locked(const std::function<void(Shown&)>& edit) {
     auto next = std::make_shared<Shown>(*shown_);
     edit(*next);
-    show_desired(desired_.edits, desired_.read_as.numbers, *next);
+    show_desired(desired_.edits, desired_.read_as, *next);
     if (desired_.read_as.seconds) next->seconds = *desired_.read_as.seconds;
     next->layer = desired_.layer;
     next->camera_text = desired_.camera ? camera_text(*desired_.camera, filter_in_file_) : camera_in_file_;
@@ -99,6 +100,7 @@ std::uint64_t Session::change(const Change& change) {
         if (change.is_of_object()) ++desired_.object;
         if (change.numbers) desired_.read_as.numbers = *change.numbers;
         if (change.seconds) desired_.read_as.seconds = change.seconds;
+        if (change.hidden_parts) desired_.read_as.hidden = {*change.hidden_parts, nullptr};
         if (change.is_of_text()) ++desired_.text;
         if (change.has_camera || change.layer || change.is_of_object() || change.is_of_text())
             desired_.since = Clock::now();

@@ -44,16 +44,17 @@ struct Change {
     bool has_camera = false;                    ///< whether to change the camera
     std::optional<AnyCameraParameters> camera;  ///< the new camera; without a value, the scene's own
     std::optional<std::vector<std::string>> hidden;
-    std::optional<std::map<std::string, Look>> looks;  ///< replaces all of them
-    bool has_cut = false;                              ///< whether to change the cut
-    std::optional<CutPlane> cut;                       ///< the new cut; without a value, none
-    std::optional<NumberEdits> numbers;                ///< replaces all of them
-    std::optional<double> seconds;                     ///< the time at which the scene is read
-    std::optional<std::string> layer;                  ///< the layer to show; empty for the picture itself
+    std::optional<std::map<std::string, Look>> looks;      ///< replaces all of them
+    bool has_cut = false;                                  ///< whether to change the cut
+    std::optional<CutPlane> cut;                           ///< the new cut; without a value, none
+    std::optional<NumberEdits> numbers;                    ///< replaces all of them
+    std::optional<double> seconds;                         ///< the time at which the scene is read
+    std::optional<std::vector<std::string>> hidden_parts;  ///< replaces all of them
+    std::optional<std::string> layer;                      ///< the layer to show; empty for the picture itself
     std::optional<float> exposure_ev;
 
     bool is_of_object() const { return hidden || looks || has_cut; }
-    bool is_of_text() const { return numbers || seconds; }
+    bool is_of_text() const { return numbers || seconds || hidden_parts; }
 };
 
 class Session {

@@ -6,6 +6,7 @@
 
 #include "film/film.hpp"
 #include "output/quantise.hpp"
+#include "phasetree/model/preparation_watch.hpp"
 #include "view/session.hpp"
 
 namespace phasetree::tracer::view {
@@ -61,11 +62,12 @@ bool Session::draw(const DesiredState& desired) {
         if (is_first_of(desired) && !draw_whole(desired, 1)) return false;
         show([](Shown& shown) { shown.doing = "Building better cells"; });
         surfaces_->begin_scene();
-        prepared_ =
-            std::make_shared<const Prepared>(scene_, WorldOptions{.quality = options_.quality,
-                                                                  .cancelled = [&] { return is_stale(desired); },
-                                                                  .max_bytes = options_.max_bytes,
-                                                                  .surfaces = surfaces_});
+        const auto cancelled = [&] { return is_stale(desired); };
+        const PreparationWatch watch({.cancelled = cancelled, .progress = {}});
+        prepared_ = std::make_shared<const Prepared>(scene_, WorldOptions{.quality = options_.quality,
+                                                                          .cancelled = cancelled,
+                                                                          .max_bytes = options_.max_bytes,
+                                                                          .surfaces = surfaces_});
     }
     if (!draw_whole(desired, file.settings.samples)) return false;
     show([&](Shown& shown) {

@@ -122,6 +122,7 @@ void Session::read(DesiredState& desired) {
         const std::lock_guard lock(mutex_);
         files_ = std::move(files);
         is_to_be_read_ = false;
+        if (viewed && desired_.read_as.hidden == desired.read_as.hidden) desired_.read_as.hidden = viewed->hidden;
         // Someone who edits the camera in the file wants to see that camera, not where the mouse has turned it.
         const auto text = [](const Scene& scene) { return camera_text(scene.camera, scene.film.filter); };
         // A camera that was requested meanwhile is newer, and stays.
@@ -144,13 +145,15 @@ void Session::read(DesiredState& desired) {
 void Session::build(const DesiredState& desired) {
     show([](Shown& shown) { shown.doing = "Building cells"; });
     const Clock::time_point begun = Clock::now();
+    const auto cancelled = [&] {
+        const bool is_over = Clock::now() - begun > first_cells_deadline;
+        return is_of_another_reading(desired) || (is_over && is_of_another_object(desired));
+    };
+    // The program of the object is recorded before cells are built.
+    const PreparationWatch watch({.cancelled = cancelled, .progress = {}});
     WorldOptions options{.quality = options_.quality,
                          .is_first_look = true,
-                         .cancelled =
-                             [&] {
-                                 const bool is_over = Clock::now() - begun > first_cells_deadline;
-                                 return is_of_another_reading(desired) || (is_over && is_of_another_object(desired));
-                             },
+                         .cancelled = cancelled,
                          .max_bytes = options_.max_bytes,
                          .surfaces = surfaces_};
     std::shared_ptr<Scene> scene;
@@ -160,6 +163,9 @@ void Session::build(const DesiredState& desired) {
         surfaces_->begin_scene();
         prepared_ = std::make_shared<const Prepared>(scene, options);
     } catch (const BuildCancelled&) {
+        built_for_ = {};
+        throw;
+    } catch (const PreparationCancelled&) {
         built_for_ = {};
         throw;
     } catch (...) {

@@ -51,10 +51,11 @@ struct Shown {
     glm::ivec2 resolution{0};  ///< of the whole picture
     int samples = 0;           ///< final number per pixel
     std::vector<ShownPhase> phases;
-    std::optional<CutPlane> cut;    ///< as requested
-    std::string layer;              ///< as requested; empty for the picture itself
-    std::vector<FilmLayer> layers;  ///< the available layers
-    NumberEdits numbers;            ///< as requested, instead of those in the file
+    std::optional<CutPlane> cut;            ///< as requested
+    std::string layer;                      ///< as requested; empty for the picture itself
+    std::vector<FilmLayer> layers;          ///< the available layers
+    NumberEdits numbers;                    ///< as requested, instead of those in the file
+    std::vector<std::string> hidden_parts;  ///< as requested: pointers into the file
     /// The numbers in the file, and the version of the file (counted by its readings) that they come from.
     std::shared_ptr<const TextNumbers> numbers_of_file = std::make_shared<TextNumbers>();
     std::uint64_t numbers_version = 0;

@@ -8,6 +8,7 @@
 #include "output/error.hpp"
 #include "studio/catalogue.hpp"
 #include "studio/messages.hpp"
+#include "studio/scene_files.hpp"
 #include "studio/starts.hpp"
 
 namespace phasetree::tracer::view {
@@ -68,6 +69,13 @@ bool StudioAnswers::get(std::string_view name, Known known, std::chrono::millise
     if (!in.is_open() || bytes.empty()) return false;
     response.set_content(std::move(bytes), "image/jpeg");
     return true;
+}
+
+void StudioAnswers::files(const std::string& type, const std::string& kind, httplib::Response& response) const {
+    const studio::SceneFiles found = studio::files_for(document_.file(), type, kind);
+    const nlohmann::json json{{"names", found.names}, {"has_more", found.has_more}};
+    // Names of files may be any bytes.
+    response.set_content(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), type_of_answers);
 }
 
 void StudioAnswers::post(std::string_view name, const std::string& body, httplib::Response& response) const {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "output/display.hpp"
 #include "phasetree/io/node_places.hpp"
@@ -20,10 +22,18 @@ struct TimeSpan {
     double first = 0, last = 0;
 };
 
+/// Parts of the scene that are left out (studio/hidden_parts.hpp).
+struct HiddenParts {
+    std::vector<std::string> pointers{};
+    std::shared_ptr<const std::string> text{};  ///< that the pointers refer to; null for the present one
+    bool operator==(const HiddenParts&) const = default;
+};
+
 /// Values that override those of the file and the command line.
 struct Reading {
     NumberEdits numbers{};
     std::optional<double> seconds{};  ///< the time at which the scene is read
+    HiddenParts hidden{};
 };
 
 struct ViewedScene {
@@ -37,6 +47,7 @@ struct ViewedScene {
     std::string warnings{};          ///< from the reader, each with a newline at the end
     double seconds = 0;              ///< the time of the animation at which it was read
     std::optional<TimeSpan> keys{};  ///< the range of its keys; empty if nothing changes with time
+    HiddenParts hidden{};            ///< those of the request, in the text that was read
 
     /// The position of a node in the unmodified file; nullopt for a node that is not in a file.
     std::optional<NodePlace> place_of(const void* node) const;

@@ -13,8 +13,10 @@ function withConstants(kind) {
 export class Catalogue {
   #byKey = new Map();
   kinds;
+  measuredColours; // {name, group, color}
 
-  constructor({kinds}) {
+  constructor({kinds, measured_colors: measuredColours}) {
+    this.measuredColours = measuredColours ?? [];
     this.kinds = kinds.map(withConstants);
     for (const kind of this.kinds) {
       this.#byKey.set(`${kind.type} ${kind.kind}`, kind);

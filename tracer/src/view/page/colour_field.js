@@ -6,6 +6,21 @@ import {closeWith, openBeside} from "./menu.js";
 const usual = ["#ffffff", "#c8c8c8", "#808080", "#202020", "#b03030", "#d07030", "#d8b040", "#50803c", "#2f6f80", "#3050a0", "#6a4090", "#8a5a3a"];
 const sliders = [["Hue", 360], ["Saturation", 100], ["Brightness", 100]];
 
+let measured = []; // {name, group, color} of the catalogue
+
+export function setMeasuredColours(colours) {
+  measured = colours.map(({name, group, color}) => ({name, group, hex: hexOf(color), text: name.replaceAll("_", " ").replace(/(?<=[a-z])(?=\d)/, " ")}));
+}
+
+// A patch in the colour of a measured substance, or null.
+export function measuredSwatch(name) {
+  const found = measured.find((one) => one.name === name);
+  if (!found) return null;
+  const swatch = make("span", {class: "swatch", "aria-hidden": "true"});
+  swatch.style.setProperty("--swatch", found.hex);
+  return swatch;
+}
+
 export class ColourField {
   #hex = "#808080";
   #changed;
@@ -79,11 +94,14 @@ export class ColourField {
       this.#set(hex, null);
       showAll();
     };
-    popup.append(make("div", {class: "swatches", role: "group", "aria-label": "Usual colours"}, usual.map((hex) => {
-      const button = make("button", {type: "button", class: "swatch-button", "aria-label": hex, title: hex, onclick: () => choose(hex)});
+    const patches = (title, colours) => make("div", {class: "swatches", role: "group", "aria-label": title}, colours.map(({hex, text}) => {
+      const button = make("button", {type: "button", class: "swatch-button", "aria-label": text, title: text, onclick: () => choose(hex)});
       button.style.setProperty("--swatch", hex);
       return button;
-    })));
+    }));
+    popup.append(patches("Usual colours", usual.map((hex) => ({hex, text: hex}))));
+    for (const group of [...new Set(measured.map((one) => one.group))])
+      popup.append(make("h3", {}, `Measured ${group}`), patches(`Measured ${group}`, measured.filter((one) => one.group === group)));
     popup.prepend(preview);
     showAll();
     closeWith(popup, this.button);

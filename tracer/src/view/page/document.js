@@ -69,6 +69,11 @@ export class SceneDocument extends EventTarget {
   get entries() {
     return [...this.#entries.values()];
   }
+  // The unit of lengths, such as "cm"; empty if the scene has none.
+  get unit() {
+    const text = textAt(this.text, "/unit");
+    return text?.startsWith('"') ? JSON.parse(text) : "";
+  }
   // The section of the outline for a member of the scene, such as "lights".
   section(name) {
     return this.entry(`section:${name}`);

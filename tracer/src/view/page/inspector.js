@@ -69,6 +69,7 @@ export class Inspector {
     this.catalogue = null;
     this.context = {
       radius,
+      unit: () => scene.unit,
       phases: () => (scene.section("phases")?.children ?? []).map((entry) => entry.label),
       set: (entry, name, text, gesture, row, index) => this.#perform(row, {
         label: `Change ${titleOf(name).toLowerCase()} of ${nameOf(entry, this.catalogue).toLowerCase()}`,

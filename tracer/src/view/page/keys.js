@@ -5,7 +5,8 @@ import {isTyping, make} from "./dom.js";
 const table = [
   ["Scene", [["Shift+A", "Add"], ["W", "Wrap the selection"], ["R", "Replace"], ["Ctrl+D", "Duplicate"], ["Delete", "Delete"], ["Ctrl+G", "Group"],
     ["Ctrl+Shift+G", "Remove the wrapper"], ["F2", "Rename"], ["Alt+↑ Alt+↓", "Move up or down in its list"], ["Ctrl+Z", "Undo"],
-    ["Ctrl+Shift+Z", "Redo"], ["Ctrl+E", "Show the text"], ["F", "Look at the selection"], ["G", "Drag surfaces"]]],
+    ["Ctrl+Shift+Z", "Redo"], ["Ctrl+E", "Show the text"], ["F", "Look at the selection"], ["G", "Drag surfaces"],
+    ["O", "Outline the selection in the picture"], ["H", "Hide the selection in the picture, or show it"], ["Alt+H", "Show everything"]]],
   ["Picture", [["Drag", "Rotate"], ["Shift+drag", "Move"], ["Scroll", "Zoom"], ["Click", "Select"], ["Alt+drag", "Drag the surface"], ["Alt+click", "Inspect the point"],
     ["Ctrl+drag", "Move the cut"], ["← ↑ → ↓", "Rotate; with Shift, move"], ["+ −", "Zoom"], ["[ ]", "Move the cut"], ["Enter", "Inspect the centre"],
     ["0", "Reset the camera"]]],
@@ -22,7 +23,7 @@ export function showKeys() {
     make("dl", {}, rows.flatMap(([keys, text]) => [make("dt", {}, keys.split(", ").flatMap((key) => [make("kbd", {}, key), " "])), make("dd", {}, text)]))))));
 }
 
-export function listenForKeys(actions, {toggleText, frame, toggleGrab, wrapButton, whenReady}) {
+export function listenForKeys(actions, {toggleText, frame, toggleGrab, toggleOutline, toggleHidden, showAll, wrapButton, whenReady}) {
   document.addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open], [popover]:popover-open")) return;
     const control = event.ctrlKey || event.metaKey, key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
@@ -40,6 +41,7 @@ export function listenForKeys(actions, {toggleText, frame, toggleGrab, wrapButto
       if (control) return null;
       if (event.altKey && !onPicture && key === "ArrowUp") return () => actions.shift(-1);
       if (event.altKey && !onPicture && key === "ArrowDown") return () => actions.shift(1);
+      if (event.altKey && key === "h") return showAll;
       if (event.altKey) return null;
       if (key === "Delete" || key === "Backspace") return () => actions.delete();
       if (key === "F2") return () => actions.rename();
@@ -49,6 +51,8 @@ export function listenForKeys(actions, {toggleText, frame, toggleGrab, wrapButto
       if (key === "r") return () => actions.replace();
       if (key === "f") return frame;
       if (key === "g") return toggleGrab;
+      if (key === "o") return toggleOutline;
+      if (key === "h") return toggleHidden;
       if (key === "?") return showKeys;
       return null;
     })();

@@ -2,6 +2,7 @@
 import {framed, membersOf, moved, orbit, planeShift, zoomed} from "./camera.js";
 import {Cut} from "./cut.js";
 import {listen} from "./input.js";
+import {hiddenParts} from "./hidden_parts.js";
 import {icon} from "./icons.js";
 import {replaceSelect} from "./menu.js";
 import {PhaseList} from "./phases.js";
@@ -51,6 +52,7 @@ const studio = new Studio({
     const others = state.phases.filter(({name, hidden}) => hidden && name !== phase).map(({name}) => name);
     changes.make({hidden: isHidden ? [...others, phase] : others});
   },
+  hideParts: (pointers, isHidden) => changes.make({hidden_parts: hiddenParts.with(pointers, isHidden)}),
   seek: (seconds) => {
     studio.showTime(seconds, state.times);
     changes.make({time: seconds});
@@ -60,7 +62,7 @@ const studio = new Studio({
   changed: () => showErrors(),
   lost: (error) => { element("status").textContent = error.message; },
 });
-const fit = fitPicture(document.querySelector(".stage"), canvas, element("handles"), () => studio.handles.show());
+const fit = fitPicture(document.querySelector(".stage"), canvas, [element("handles"), element("selected-outline")], () => studio.handles.show());
 
 function showText(id, text) {
   const place = element(id);
@@ -119,6 +121,7 @@ function showState(next, pixels) {
   showText("warning", state.warning);
   if (pixels) draw(canvas, state, pixels);
   if (pixels) fit();
+  if (pixels) studio.selectionOutline.pictureChanged(state);
   if (isPressed()) whenReleased().then(() => state === next && showPanels());
   else showPanels();
 }
@@ -127,6 +130,7 @@ function showPanels() {
   // Changes just made here are newer than the server's state.
   if (changes.arePending || state.version < changes.version) return;
   showPhases(state.phases);
+  if (hiddenParts.take(state.hidden_parts)) studio.outliner.show();
   cut.show(state);
   lists.direction.refresh();
   time.show(state);

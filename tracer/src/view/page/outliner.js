@@ -6,6 +6,7 @@ import {nameOf, remarkOf} from "./names.js";
 import {indexOf, isInList, isSection, listOf, slotOf, typeOfPlace} from "./structure.js";
 import {isWithin, parentOf} from "./pointer.js";
 import {isHidden, lookOf, swatchOf} from "./swatch.js";
+import {hiddenParts} from "./hidden_parts.js";
 
 const pixelsToDrag = 5;
 
@@ -85,7 +86,7 @@ export class Outliner {
       name: nameOf(entry, this.#catalogue), remark: remarkOf(entry, this.#catalogue), hasChildren: entry.children.length > 0, open: this.#isOpen(entry),
       phases: entry.type === "material" && entry.label ? [entry.label] : entry.phases.slice(0, 4),
     };
-    const look = JSON.stringify([parts, entry.kind, entry.type, entry.level, parts.phases.map(lookOf)]), old = this.#rows.get(entry.key);
+    const look = JSON.stringify([parts, entry.kind, entry.type, entry.level, parts.phases.map(lookOf), hiddenParts.has(entry), hiddenParts.isInHidden(entry)]), old = this.#rows.get(entry.key);
     if (old && this.#looks.get(entry.key) === look) return old;
     this.#looks.set(entry.key, look);
     return this.#row(entry, parts);
@@ -108,7 +109,12 @@ export class Outliner {
         this.#act.add(now());
       },
     }, icon("add")));
-    if (isPhase(entry)) row.querySelector(".swatches").before(this.#eye(entry.label));
+    const beforeEye = row.querySelector(".swatches");
+    if (isPhase(entry)) beforeEye.before(this.#eye(`${entry.label} in the picture`, isHidden(entry.label), (isOff) => this.#act.hide(entry.label, isOff)));
+    if (hiddenParts.canHide(entry)) {
+      beforeEye.before(this.#eye(name, hiddenParts.has(entry), (isOff) => this.#act.hideParts([now().pointer], isOff)));
+      row.classList.toggle("is-hidden", hiddenParts.isInHidden(entry));
+    }
     row.addEventListener("click", (event) => this.#choose(now(), event));
     row.addEventListener("dblclick", () => (entry.label && !isSection(entry) ? this.#act.rename(now()) : this.#toggle(now())));
     row.addEventListener("contextmenu", (event) => {
@@ -119,14 +125,14 @@ export class Outliner {
     row.addEventListener("pointerdown", (event) => this.#grab(now(), row, event));
     return row;
   }
-  // Hides a phase in the picture, and shows it again.
-  #eye(phase) {
-    const isOff = isHidden(phase), text = `${isOff ? "Show" : "Hide"} ${phase} in the picture`;
+  // Hides something in the picture, and shows it again.
+  #eye(what, isOff, hide) {
+    const text = `${isOff ? "Show" : "Hide"} ${what}`;
     return make("button", {
-      type: "button", class: `icon-button small eye${isOff ? " off" : ""}`, "aria-label": text, title: text, tabIndex: -1,
+      type: "button", class: `icon-button small eye${isOff ? " off" : ""}`, "aria-label": text, "aria-pressed": String(isOff), title: text, tabIndex: -1,
       onclick: (event) => {
         event.stopPropagation();
-        this.#act.hide(phase, !isHidden(phase));
+        hide(!isOff);
       },
     }, icon(isOff ? "eye-off" : "eye"));
   }

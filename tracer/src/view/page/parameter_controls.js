@@ -1,7 +1,8 @@
 // The controls of the inspector's rows: which sort fits a parameter with its value, and how each is made.
 import {hexOf, linearOf} from "./colour.js";
-import {ColourField} from "./colour_field.js";
+import {ColourField, measuredSwatch} from "./colour_field.js";
 import {CurveField} from "./curve_field.js";
+import {FileField} from "./file_field.js";
 import {make, refill} from "./dom.js";
 import {parsed, written} from "./json_text.js";
 import {ListField} from "./list_field.js";
@@ -35,7 +36,7 @@ export function sortOf(spec, value) {
     case "phase": case "phases": return Array.isArray(value) ? "phases" : "phase";
     case "boolean": return typeof value === "boolean" || value === null ? "boolean" : "json";
     case "choice": return typeof value === "string" || value === null ? "choice" : "json";
-    case "text": case "file": return typeof value === "string" || value === null ? "text" : "json";
+    case "text": case "file": return typeof value === "string" || value === null ? spec.control : "json";
     default: return sortOfList(spec.type ?? "", value);
   }
 }
@@ -49,10 +50,10 @@ function sortOfList(type, value) {
 
 // What a field of numbers needs to know: limits, unit, and the usual size of a value.
 function limitsOf(row) {
-  const {low, high, low_open: lowIsOpen, unit, control} = row.spec;
+  const {low, high, low_open: lowIsOpen, unit, control} = row.spec; // lengths are in m, whatever the scene's unit is
   const hasRange = Number.isFinite(low) && Number.isFinite(high) && high - low < 1e3;
   const scale = control === "angle" ? 90 : hasRange ? high - low : control === "length" || unit === "m" ? row.context.radius() : 1;
-  return {low, high, lowIsOpen, unit, isInteger: control === "integer", scale};
+  return {low, high, lowIsOpen, unit: row.unit, isInteger: control === "integer", scale};
 }
 
 // Each makes {element, show(value, fallback, text), input} for a row.
@@ -130,7 +131,9 @@ export const makers = {
   },
   choice(row) {
     const choice = new Choice(row.title, (value) => row.change(value, null));
-    const options = (row.spec.choices ?? []).map((value) => ({value, text: String(value).replaceAll("_", " ")}));
+    const options = (row.spec.choices ?? []).map((value) => ({
+      value, text: String(value).replaceAll("_", " "), swatch: ["metal", "medium"].includes(row.spec.name) ? () => measuredSwatch(value) : undefined,
+    }));
     return {element: choice.element, show: (value, fallback) => choice.show(options, value ?? fallback, "none")};
   },
   text(row) {
@@ -139,9 +142,13 @@ export const makers = {
     });
     const show = (value, fallback) => {
       if (input !== document.activeElement) input.value = value ?? "";
-      input.placeholder = fallback ?? (row.spec.control === "file" ? "name of a file" : "none");
+      input.placeholder = fallback ?? "none";
     };
     return {element: input, show, input};
+  },
+  file(row) {
+    const field = new FileField(row.title, () => row.kind, (name) => row.change(name, null));
+    return {element: field.element, show: (value, fallback) => field.show(value, fallback ?? "name of a file"), input: field.input};
   },
   // Numbers at wavelengths, or the temperature of a black body.
   spectrum(row) {

@@ -57,10 +57,18 @@ export class ParameterRow {
     this.element = make("div", {class: "parameter", "data-parameter": spec.name}, this.label, this.place, make("div", {class: "beside"}, this.insteadButton, this.resetButton, this.keyButton), this.problem, this.help);
   }
   #helpText() {
-    const {help, low, high, low_open: lowIsOpen, unit, required} = this.spec;
+    const {help, low, high, low_open: lowIsOpen, required} = this.spec, {unit} = this;
     const limits = [Number.isFinite(low) ? `${lowIsOpen ? "more than" : "at least"} ${low}` : "", Number.isFinite(high) ? `at most ${high}` : ""].filter(Boolean).join(", ");
     const said = this.fallback === null ? "" : `Default: ${written(this.fallback)}.`;
     return [plainText(help ?? ""), limits ? `Limits: ${limits}${unit ? ` ${unit}` : ""}.` : "", said, required ? "Required." : ""].filter(Boolean).join(" ");
+  }
+  // As it is shown: lengths are in the scene's unit, if it has one.
+  get unit() {
+    return this.spec.unit === "m" ? this.context.unit() : this.spec.unit;
+  }
+  // What the parameter belongs to.
+  get kind() {
+    return {type: this.#entry.type, kind: this.#entry.kind};
   }
   get isPresent() {
     return this.#entry?.parameters?.[this.spec.name] !== undefined;

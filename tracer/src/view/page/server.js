@@ -24,6 +24,8 @@ async function post(name, body) {
 }
 
 export const ask = (x, y) => post("ask", {x, y});
+export const askSelected = (parts) => post("selected", parts);
+export const askFiles = async (type, kind) => (await answerTo(`files?type=${encodeURIComponent(type)}&kind=${encodeURIComponent(kind)}`)).json();
 export const grabAt = (x, y) => post("grab", {x, y});
 export const dragTo = (drag) => post("drag", drag);
 export const askFile = async (name) => (await answerTo(name)).blob();

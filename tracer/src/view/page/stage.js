@@ -1,15 +1,16 @@
-// Fits the picture into the space for it, and the handles over the picture.
+// Fits the picture into the space for it, and what is drawn over the picture.
 
 const most = 2.5; // times as large as its pixels
 
-export function fitPicture(stage, canvas, svg, shown) {
+export function fitPicture(stage, canvas, overlays, shown) {
   const fit = () => {
     if (canvas.width <= 1) return;
     const {clientWidth, clientHeight} = stage;
     const factor = Math.min(most, clientWidth / canvas.width, clientHeight / canvas.height);
     const width = Math.max(1, Math.floor(canvas.width * factor)), height = Math.max(1, Math.floor(canvas.height * factor));
     Object.assign(canvas.style, {width: `${width}px`, height: `${height}px`});
-    Object.assign(svg.style, {left: `${canvas.offsetLeft}px`, top: `${canvas.offsetTop}px`});
+    for (const svg of overlays)
+      Object.assign(svg.style, {left: `${canvas.offsetLeft}px`, top: `${canvas.offsetTop}px`, width: `${width}px`, height: `${height}px`});
     shown();
   };
   new ResizeObserver(fit).observe(stage);

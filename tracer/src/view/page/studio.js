@@ -2,13 +2,17 @@
 import {Actions} from "./actions.js";
 import {Announcer} from "./announcer.js";
 import {Catalogue} from "./catalogue.js";
+import {setMeasuredColours} from "./colour_field.js";
 import {SceneDocument} from "./document.js";
 import {Grab} from "./grab.js";
 import {Handles} from "./handles.js";
 import {Inspector} from "./inspector.js";
 import {listenForKeys, showKeys} from "./keys.js";
 import {Outliner} from "./outliner.js";
+import {hiddenParts} from "./hidden_parts.js";
+import {nameOf} from "./names.js";
 import {Selection} from "./selection.js";
+import {SelectionOutline} from "./selection_outline.js";
 import {askCatalogue, pause, shortMessage} from "./server.js";
 import {chainOf, isNode, isSection, membersOf, topOfChain} from "./structure.js";
 import {mapTo, transformPoint} from "./affine.js";
@@ -29,7 +33,7 @@ export class Studio {
   #makeReady;
   #ready = new Promise((done) => (this.#makeReady = done));
 
-  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), hide(phase, isHidden), inspect(event), seek(seconds),
+  // `view` has canvas, camera(), radius(), tabs, lookAt(centre), hide(phase, isHidden), hideParts(pointers, isHidden), inspect(event), seek(seconds),
   // togglePlay(), changed() and lost(error).
   constructor(view) {
     this.view = view;
@@ -47,10 +51,12 @@ export class Studio {
       rename: (entry) => this.actions.rename(entry),
       add: (section) => this.actions.addToSection(section),
       hide: (phase, isHidden) => view.hide(phase, isHidden),
+      hideParts: (pointers, isHidden) => view.hideParts(pointers, isHidden),
       openEdit: () => this.#openEdit(),
     }});
     this.inspector = new Inspector({head: element("inspector-head"), body: element("inspector")}, {...common, act: this.actions, radius: view.radius, failed});
     this.handles = new Handles(element("handles"), {view, scene: this.scene, failed: (error) => this.announcer.say(shortMessage(error), {isWrong: true})});
+    this.selectionOutline = new SelectionOutline(element("selected-outline"), {...common, status: element("selected-said"), nameOf: (entry) => nameOf(entry, this.#catalogue)});
     this.grab = new Grab({canvas: view.canvas, mark: element("grab-mark"), panel: element("grab-panel"), button: element("grab"), scene: this.scene,
       announcer: this.announcer, inspect: (event) => view.inspect(event)});
     this.text = new TextDrawer({drawer: element("drawer"), area: element("text"), lines: element("text-lines"), problem: element("text-problem"), names: element("text-names")}, this.scene);
@@ -81,6 +87,7 @@ export class Studio {
     }
     this.scene.follow((error) => this.view.lost(error));
     this.actions.catalogue = this.text.catalogue = this.handles.catalogue = this.#catalogue;
+    setMeasuredColours(this.#catalogue.measuredColours);
     this.outliner.use(this.#catalogue);
     this.inspector.use(this.#catalogue);
     this.grab.use(this.#catalogue);
@@ -99,10 +106,10 @@ export class Studio {
       undo: () => actions.undo(), redo: () => actions.redo(), add: () => actions.add(), wrap: () => actions.wrapMenu(element("wrap")),
       duplicate: () => actions.duplicate(), delete: () => actions.delete(), "text-toggle": () => this.#toggleText(), help: showKeys,
       "save-file": () => this.scene.save().catch((error) => this.announcer.say(shortMessage(error), {isWrong: true})),
-      "empty-add": () => actions.add(), "empty-start": () => actions.startWithBall(), "empty-scene": () => actions.startWith(element("empty-scene")), "whole-scene": () => actions.startWith(element("whole-scene")), frame: () => this.frame(),
+      "empty-add": () => actions.add(), "empty-start": () => actions.startWithBall(), "empty-scene": () => actions.startWith(element("empty-scene")), "whole-scene": () => actions.startWith(element("whole-scene")), frame: () => this.frame(), "outline-selection": () => this.#toggleOutline(),
     };
     for (const [id, act] of Object.entries(run)) element(id).addEventListener("click", () => this.#whenReady(act));
-    listenForKeys(actions, {toggleText: () => this.#toggleText(), frame: () => this.frame(), toggleGrab: () => this.grab.toggle(), wrapButton: element("wrap"),
+    listenForKeys(actions, {toggleText: () => this.#toggleText(), frame: () => this.frame(), toggleGrab: () => this.grab.toggle(), toggleOutline: () => this.#toggleOutline(), toggleHidden: () => this.#toggleHidden(), showAll: () => this.#showAll(), wrapButton: element("wrap"),
       whenReady: (act) => this.#whenReady(act)});
   }
   // What is pressed while the page still loads is done as soon as it has loaded.
@@ -117,6 +124,21 @@ export class Studio {
     const isOpen = this.text.toggle();
     element("text-toggle").setAttribute("aria-pressed", String(isOpen));
     if (isOpen) this.text.reveal(this.actions.active?.line);
+  }
+  // Hides the selection, or shows it again if all of it is hidden.
+  #toggleHidden() {
+    const parts = this.actions.selected.filter(hiddenParts.canHide);
+    if (parts.length === 0) return;
+    const isHidden = !parts.every(hiddenParts.has);
+    this.view.hideParts(parts.map(({pointer}) => pointer), isHidden);
+    this.announcer.say(isHidden ? "Hidden in the picture; the file keeps it. Alt+H shows everything." : "Shown again");
+  }
+  #showAll() {
+    if (hiddenParts.pointers.length > 0) this.view.hideParts(hiddenParts.pointers, false);
+  }
+  #toggleOutline() {
+    this.selectionOutline.toggle(!this.selectionOutline.isOn);
+    element("outline-selection").setAttribute("aria-pressed", String(this.selectionOutline.isOn));
   }
   #openEdit() {
     this.view.tabs.show("edit");
@@ -148,7 +170,10 @@ export class Studio {
   // Every step is saved at once, so only what stays unsaved is worth a button.
   #showSaved() {
     const {saved, saveError} = this.scene, show = () => {
-      element("saved").textContent = this.scene.saved ? "Saved" : "Not saved";
+      const {saved, error} = this.scene;
+      element("saved").textContent = !saved ? "Not saved" : error ? "Invalid file" : "Saved";
+      element("saved").classList.toggle("wrong", saved && error !== null);
+      element("saved").title = saved && error ? `The file is saved, but it has an error${error.line ? ` in line ${error.line}` : ""}: ${error.message}` : "";
       element("saved").classList.toggle("hidden-text", !this.scene.saved);
       element("save-file").hidden = this.scene.saved;
       element("save-file").title = this.scene.saveError ?? "Save the scene file";
