@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "image/luminance.hpp"
+#include "phasetree/model/poll_preparation.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "scene/emissive_parts.hpp"
 
@@ -77,6 +78,7 @@ class PhaseFinder {
 
     // φ at the centres of a box's octants.
     BatchOfFloats distances(const PointBatch& at, Phase phase) {
+        poll_preparation();  // in an object of many copies, each evaluation takes milliseconds
         const auto& outputs = evaluator_.program().outputs;
         const auto output = std::ranges::find(outputs, phase, &Output::phase);
         evaluator_.evaluate(at.x, at.y, at.z, values_, Evaluator::thread_workspace());
