@@ -77,12 +77,12 @@ struct Face {
 /// Beside the end of a spike, another piece is nearest, but by so little that an edge may win by rounding, with a
 /// height of the wrong sign. So the region is limited to ±h ≥ f cos β · |away| − s, where s bounds the rounding errors:
 ///
-/// * Of a bent edge, with an angle of at least 30° between the normals of its faces, the sign is + if the edge is
-/// convex
-///   and − if it is concave, and f is ½. Farther than 2 s/cos β from the edge, the sign of h is certain.
-/// * An edge that is nearly straight may be nearest, up to rounding, to points on both sides. The sign is that of h,
-/// and
-///   f is 0.9, which excludes points beside the edge, where the sign of h is that of its rounding error.
+/// * Bent edges, with an angle of at least 30° between the normals of their faces: f is ½.
+///   The sign is + if the edge is convex and − if it is concave.
+///   Farther than 2 s/cos β from the edge, the sign of h is certain.
+/// * Nearly straight edges: f is 0.9. They may be nearest, up to rounding, to points on both sides.
+///   The sign is that of h.
+///   The limit excludes points beside the edge, where the sign of h is that of its rounding error.
 ///
 /// ±h is computed as |h| + bend · h, which is twice as much for bent edges, like the stored numbers. Every point to
 /// which the edge is nearest stays in the region, because s exceeds the errors in proportion to the edge's length, and
