@@ -11,6 +11,7 @@ glass. The olive, the pick, the straw, the coaster, the cork and the label are o
 cow is the mesh of someone else (spot.ply). Lengths are in metres; y is up.
 """
 
+import argparse
 import json
 import math
 import os
@@ -287,12 +288,26 @@ def light(scene):
     return scene
 
 
-if __name__ == "__main__":
-    if sys.argv[1] == "--light":
-        with open(sys.argv[2], encoding="utf-8") as file:
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("file", help="the glTF file to write (.glb), or the scene to light")
+    parser.add_argument("--light", action="store_true", help="replace lights, camera and render settings of a scene")
+    arguments = parser.parse_args()
+    try:
+        if not arguments.light:
+            with open(arguments.file, "wb") as out:
+                out.write(bar())
+            return
+        with open(arguments.file, encoding="utf-8") as file:
             imported = json.load(file)
-        with open(sys.argv[2], "w", encoding="utf-8") as out:
-            json.dump(light(imported), out, indent=1)
-    else:
-        with open(sys.argv[1], "wb") as out:
-            out.write(bar())
+        if not isinstance(imported, dict):
+            raise ValueError("not a scene")
+        text = json.dumps(light(imported), indent=1)
+        with open(arguments.file, "w", encoding="utf-8") as out:
+            out.write(text)
+    except (OSError, ValueError) as error:
+        sys.exit(f"bar.py: {arguments.file}: {error.strerror if isinstance(error, OSError) else error}")
+
+
+if __name__ == "__main__":
+    main()
