@@ -1,4 +1,4 @@
-"""Runs the command, by test-command-server if one is running (server/main.cpp): a quarter of a second faster each time."""
+"""Runs the command through test-command-server (server/main.cpp) if it is running, which saves a quarter of a second."""
 
 import contextlib
 import os

@@ -273,7 +273,7 @@ TEST_CASE("a plate and a slit 1.2 times as thick as the grid are whole, however 
     CHECK(off * 2000 < vertices);
 }
 
-// Vertices of so thin parts may lie outside their cubes, each on another side of the part than its cube.
+// Vertices of such thin parts may lie outside their cubes, on the other side of the part.
 TEST_CASE("parts smaller than the grid are not turned over") {
     Random rng(11);
     std::size_t parts = 0, turned = 0, faults = 0;
