@@ -127,6 +127,15 @@ TEST_CASE("measures use the unit and the densities of the scene, and options ove
     };
     CHECK(line_of(in_mm, "  largest x") == line_of(in_m, "  largest x"));
     CHECK(line_of(in_mm, "  mass") != line_of(in_m, "  mass"));
+    // So are volumes and areas. Masses follow from the density in kg/m³, and moments of inertia from masses.
+    const auto lower_limit = [&](const std::string& text, const std::string& start) {
+        return std::stod(line_of(text, start).substr(std::string(" from ").size()));
+    };
+    const double to_cubic_metres = 1e-9;  // of a cubic millimetre
+    CHECK(lower_limit(in_mm, "  volume") == doctest::Approx(lower_limit(in_m, "  volume")).epsilon(1e-6));
+    CHECK(lower_limit(in_mm, "  mass") == doctest::Approx(to_cubic_metres * lower_limit(in_m, "  mass")).epsilon(1e-6));
+    CHECK(lower_limit(in_mm, "  inertia xx") ==
+          doctest::Approx(to_cubic_metres * lower_limit(in_m, "  inertia xx")).epsilon(1e-6));
 }
 
 TEST_CASE("files whose unit is fixed have lengths in it") {
