@@ -87,6 +87,16 @@ TEST_CASE("a hidden shape is hidden wherever it is used") {
                   "subtract": [{"sphere": {"radius": 0.25}}]}}}}]})"));
 }
 
+TEST_CASE("a shape is hidden with the only shape that it uses") {
+    const std::string text = replaced(
+        replaced(scene, R"("shapes": {)", R"("shapes": {"moved": {"translate": {"by": [1, 0, 0], "of": "ball"}}, )"),
+        R"("glass", "of": "ball")", R"("glass", "of": "moved")");
+    const auto hidden = nlohmann::json::parse(text_without(Document::from_text(text), vocabulary(), {"/shapes/ball"}),
+                                              nullptr, true, true);
+    REQUIRE(hidden.at("tree").at("over").size() == 1);
+    CHECK(hidden.at("tree").at("over")[0].at("set").at("phase") == "wood");
+}
+
 TEST_CASE("pointers to nothing are ignored, and something must remain") {
     CHECK(left("tree", {"", "/", "x", "/tree/over/9", "/phases/glass", "/camera"}).at("over").size() == 2);
     for (const Pointers& all : {Pointers{"/tree"}, Pointers{"/tree/over/0", "/tree/over/1"}})

@@ -92,7 +92,7 @@ class Hiding {
         const auto shape = shapes_.find(name);
         if (shape == shapes_.end()) return false;
         are_shapes_gone_[name] = false;  // for shapes that contain themselves, which the reader rejects
-        return are_shapes_gone_[name] = hidden_.contains(shape->second->pointer);
+        return are_shapes_gone_[name] = look(*shape->second);
     }
 
     void leave_out(Value list, const std::set<std::size_t>& offsets) {
