@@ -51,6 +51,9 @@ TEST_CASE("an interface of two dielectrics has the same bits in each scene, whic
     for (const bool begins_inside : {false, true}) {
         SharedSurfaces fresh, used;
         const auto expected = scene(fresh, begins_inside);
+        const float ratio = begins_inside ? air / glass : glass / air;
+        CHECK(expected.first->eta() == doctest::Approx(ratio));
+        CHECK(expected.second->eta() == doctest::Approx(1 / ratio));
         const auto other_way = scene(used, !begins_inside);
         const auto same_way = scene(used, begins_inside);
         CHECK(bits_of(*same_way.first) == bits_of(*expected.first));
