@@ -2,9 +2,9 @@
 
     python3 tests/costs.py BUILD [REGULAR_EXPRESSION]
 
-Runs the tests of a build folder whose names match, one at a time, and prints them as a Markdown table, the longest first.
-Processor time includes that of child processes, and hardly depends on what else the machine does. Tests that end in less
-than a second count in the sums only. With PHASETREE_LONG_TESTS, these are the long forms.
+Runs the tests of a build folder whose names match, one at a time, and prints a Markdown table, longest first. Processor
+time includes that of child processes, and hardly depends on what else the machine does. Tests that take less than a
+second count only in the sums. PHASETREE_LONG_TESTS selects the long forms.
 """
 
 import collections
@@ -16,7 +16,7 @@ import sys
 
 
 def listed(build):
-    """[(name, command, working folder, environment)] of all tests."""
+    """Yields (name, command, working folder, environment) of each test."""
     text = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True, check=True).stdout
     for test in json.loads(text)["tests"]:
         properties = {p["name"]: p["value"] for p in test.get("properties", [])}
@@ -38,7 +38,7 @@ def main():
         before = processor_seconds()
         done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, check=False)
         costs[name] = processor_seconds() - before
-        # 77 is the code of a skipped test.
+        # 77 is the exit code of a skipped test.
         if done.returncode not in (0, 77):
             failed.append(name)
         print(f"{costs[name]:7.1f} {name}", file=sys.stderr, flush=True)

@@ -54,14 +54,14 @@ target_compile_options(phasetree_options INTERFACE
     ${quiet}
     $<$<BOOL:${PHASETREE_WERROR}>:-Werror>)
 
-# phasetree_compile_quickly(TARGET): for code that takes longer to optimise than it will ever run. This is the rule for
-# what is compiled so: code that reads, checks, describes or writes scenes, options and messages, once per node,
-# parameter or option of the input. Whatever runs once per ray, cell, sample, pixel, triangle or voxel is compiled with
-# -O3. Options of single files would exclude these files from unity builds, so such code is a target of its own, chosen
-# by room in the CMakeLists.txt of lib, tracer and plugins/python.
+# phasetree_compile_quickly(TARGET): compile with -O1, for code that takes longer to optimise than to run. It is meant
+# for code that reads, checks, describes or writes scenes, options and messages, once per node, parameter or option of
+# the input. Code that runs once per ray, cell, sample, pixel, triangle or voxel is compiled with -O3. Options of single
+# files would exclude these files from unity builds, so such code has its own targets. The CMakeLists.txt of lib, tracer
+# and plugins/python choose it by folder or file.
 function(phasetree_compile_quickly target)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-    # Parsing headers takes most of the time that is left.
+    # Most of the remaining time is spent on parsing headers.
     set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 16)
 endfunction()
 

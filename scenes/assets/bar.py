@@ -1,14 +1,14 @@
-"""Write a still life at a bar as glTF, to be imported by `phasetree import`, and give the imported scene its lights.
+"""Write a still life at a bar as glTF for `phasetree import`, and add lights and a camera to the imported scene.
 
     python3 scenes/assets/bar.py bar.glb
     phasetree import bar.glb -o bar.json
     python3 scenes/assets/bar.py --light bar.json
     phasetree render bar.json
 
-The three drinks are modelled in the three ways that occur in files of other people: the vermouth overlaps its glass by
-0.3 mm, the whisky's wall is exactly the inner wall of its tumbler, and there is a gap of 0.1 mm between the tonic and its
-glass. The olive, the pick, the straw, the coaster, the cork and the label are opaque, and meet what is clear. The glass
-cow is the mesh of someone else (spot.ply). Lengths are in metres; y is up.
+Each drink meets its glass in one of the three ways that occur in practice: the vermouth overlaps its glass by 0.3 mm,
+the wall of the whisky is exactly the inner wall of its tumbler, and a gap of 0.1 mm separates the tonic from its glass.
+The olives, the pick, the straw, the coaster, the cork and the label are opaque, and touch clear objects. The cow is a
+mesh from another source (spot.ply). Lengths are in metres; y is up.
 """
 
 import argparse
@@ -39,7 +39,7 @@ def smooth(points, parts=8):
 
 
 def offset(profile, distance):
-    """A profile moved to its right, seen along it: outward, if it runs upward."""
+    """A profile moved to the right of its direction, which is outward if it runs upward."""
     result = []
     for i, (r, y) in enumerate(profile):
         (r0, y0), (r1, y1) = profile[max(i - 1, 0)], profile[min(i + 1, len(profile) - 1)]
@@ -96,7 +96,7 @@ def ice(half, edge, seed, steps=24):
 
 
 def tube(path, radius, around=48, hollow=0.0):
-    """A tube along a path, closed by discs, or by rings if it is hollow."""
+    """A tube along a path. Discs close its ends, or rings if it is hollow."""
     radii = [radius, hollow] if hollow else [radius]
     places, triangles, n = [], [], len(path)
     for r in radii:
@@ -105,7 +105,7 @@ def tube(path, radius, around=48, hollow=0.0):
             t = [b - a for a, b in zip(q, s)]
             length = math.sqrt(sum(x * x for x in t))
             t = [x / length for x in t]
-            x = [-t[1], t[0], 0.0]  # across the path, which is nowhere along z
+            x = [-t[1], t[0], 0.0]  # across the path, which must never run along z
             length = math.hypot(*x)
             x = [c / length for c in x]
             y = [t[1] * x[2] - t[2] * x[1], t[2] * x[0] - t[0] * x[2], t[0] * x[1] - t[1] * x[0]]
@@ -243,7 +243,7 @@ def bar():
     add("Straw", tube([(x - 0.014 + 0.045 * t, 0.0135 + 0.178 * t, z + 0.017 - 0.012 * t) for t in (i / 40 for i in range(41))],
                       0.0031, hollow=0.0027), red)
 
-    # A bottle behind them, and a cow of glass in front.
+    # A bottle behind the drinks, and a glass cow in front.
     x, z = -0.048, -0.105
     add("Bottle", vessel(BOTTLE, BOTTLE_WALL), glass, (x, 0, z))
     add("Bottled whisky", filled(BOTTLE_WALL, 0.138, REACH), whisky, (x, 0, z))
@@ -263,7 +263,7 @@ def drink_ball(radius):
 
 
 def light(scene):
-    """Lamps far behind, out of focus, a glow on the wall, and a softbox on either side; z is up here."""
+    """Add lamps far behind, out of focus, a glow on the wall, three softboxes and a camera; z is up here."""
     lamps = random.Random(4)
     warm, cool = [], []
     for _ in range(26):

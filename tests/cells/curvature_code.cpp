@@ -1,4 +1,4 @@
-// Curvature bounds in eight bits are never smaller than the bounds, and at most an eighth larger.
+// Curvature bounds encoded in eight bits are never smaller than the original bounds, and at most an eighth larger.
 #include "cells/curvature_code.hpp"
 
 #include <doctest/doctest.h>
@@ -18,7 +18,7 @@ TEST_CASE("an encoded curvature bound is at least the bound, and at most an eigh
     for (const float diagonal : {0.01f, 1.0f, 37.0f}) {
         const CurvatureCode code(diagonal);
         for (int i = 0; i < 10000; ++i) {
-            // From the smallest bound that has a code of its own, over the codes' range of about 2⁻¹⁰ to 2²¹.
+            // The codes range from about 2⁻¹⁰, the smallest bound that has its own code, to 2²¹.
             const float bound = std::exp2(-10 + 30 * random()) / diagonal;
             const float decoded = code.decode(code.encode(bound));
             REQUIRE(decoded >= bound);
@@ -28,7 +28,7 @@ TEST_CASE("an encoded curvature bound is at least the bound, and at most an eigh
     }
 }
 
-TEST_CASE("flat and unknown curvature have codes of their own") {
+TEST_CASE("flat and unknown curvature have their own codes") {
     const CurvatureCode code(2);
     CHECK(code.encode(0) == 0);
     CHECK(code.encode(-1) == 0);

@@ -22,8 +22,8 @@ TEST_CASE("the nearest crossing over all cells is the whole object's in the gall
         CAPTURE(path.string());
         Random rng(15);  // files come in any order
         const std::size_t before = all.different;
-        // Building the cells takes nearly all of the time. The short form builds most of them with low quality, and
-        // those of three scenes as in a render; cells of medium quality of random trees are in cells/rays.
+        // Building the cells takes nearly all of the time. The short form builds them as in a render for three scenes,
+        // and with low quality for the others. cells/rays tests cells of medium quality of random trees.
         const std::string name = path.stem().string();
         const bool is_medium = long_tests() || name == "hourglass" || name == "cable" || name == "two_pears";
         compare_crossings(read_tree(Document::from_file(path)).object, {}, long_tests() ? 2000 : 40, rng, all,

@@ -309,9 +309,9 @@ TEST_CASE("the region of a face does not extend beyond its sharp corners") {
     compare({.name = "fans", .file = mesh, .meant = mesh}, rng);
 }
 
-// Beside the tip of a spike, the tip is nearest. The edges that end there are as near up to rounding, and one may win,
-// although its height over the point has the wrong sign. Not compared are points to which a face is nearest, and those
-// opposite to the coplanar faces, where an edge of these may be right about the direction but not about the side.
+// Beside the tip of a spike, the tip is nearest. Up to rounding, the edges that end there are equally near, and one may
+// win although its height has the wrong sign. The test skips points to which a face is nearest, and points opposite the
+// coplanar faces, where an edge of these may be right about the direction but wrong about the side.
 TEST_CASE("beside the tip of a spike, edges with the wrong sign are not nearest") {
     Random rng(341);
     std::size_t edges = 0, wrong = 0;
@@ -353,7 +353,7 @@ TEST_CASE("beside the tip of a spike, edges with the wrong sign are not nearest"
     CHECK(farthest < bound);
 }
 
-// A repaired mesh, and a point beside one of its spikes to which an edge of the spike was nearest.
+// A repaired mesh, and a point beside one of its spikes to which an edge of the spike was once nearest.
 TEST_CASE("an edge of a repaired spike is not nearest to a point on its other side") {
     Random rng(337);
     PlantedDefects planted(rng);

@@ -35,7 +35,7 @@ TEST_CASE("overlaps: priorities come first, then containment, then matter, then 
     CHECK(phases({{"glass", {0, 3, 3}}, {"water", {1, 2, 1}}}, both, {1, 0}) == "glass");
     CHECK(phases({{"Glass of water", {0, 2, 1}}, {"Orange_juices", {1, 3, 1}}}, both) == "Glass of water");
     CHECK(phases({{"OrangeJuice", {0, 2, 1}}, {"Water glass", {1, 3, 1}}}, both) == "Water glass");
-    // A plural in "es" is known: without the word, the index of lenses would make them a liquid like the water.
+    // Plurals in "es" are recognised: otherwise, their index would make the lenses a liquid like the water.
     Gltf plural;
     plural.node("water", plural.mesh(box({0, 0, 0}, {2, 1, 1}), plural.clear("water", 1.33f)));
     plural.node("lenses", plural.mesh(box({1, 0, 0}, {3, 1, 1}), plural.clear("lenses", 1.34f)));

@@ -110,7 +110,7 @@ TEST_CASE("measures use the unit and the densities of the scene, and options ove
     CHECK(run(flask(R"("unit": "mm",)", dense), with({"--unit", "cm", "--density", "glass=1"})).out ==
           run(flask(""), with({"--unit", "cm", "--density", "glass=1"})).out);
     CHECK(run(flask(""), coarse).out == run(flask(R"("unit": "m",)"), coarse).out);
-    // The table has the scene's unit. The flask's lengths are the same numbers in each.
+    // The table is in the scene's unit, so the flask's lengths are the same numbers in each unit.
     const auto table = [&](const std::string& unit) {
         return run(flask(unit, dense), {"measure", "--tolerance", "0.1"}).out;
     };

@@ -2,10 +2,10 @@
 
     python3 clang.py BUILD [TARGET…]
 
-BUILD has a compile_commands.json. The short form takes the kernels of the oldest and the newest instruction set, the
-fuzzers, all headers, up to ten of the sources that differ from the commit before the last, and every source that names a
-view of ranges, because Clang 14 cannot compile most views of libstdc++. With PHASETREE_LONG_TESTS, all sources are taken;
-with targets, all of these targets.
+BUILD has a compile_commands.json. The short form checks the kernels of the oldest and the newest instruction set, the
+fuzzers, all headers, up to ten sources that changed since HEAD~1, and every source that names a view of ranges, because
+Clang 14 cannot compile most views of libstdc++. With PHASETREE_LONG_TESTS, it checks all sources; with TARGETs, all
+sources of these targets.
 
 Only syntax and types are checked. Sources that are compiled with the same options are checked as one unit, because parsing
 the standard library's headers takes most of the time. If two of them give a name two meanings, they are checked again
@@ -30,7 +30,7 @@ SKIPPED = 77
 FOR_CLANG = ["-Wno-unknown-warning-option", "-Wno-bitwise-instead-of-logical"]
 SHORT_TARGETS = {"fuzz"}
 MOST_CHANGED = 10
-# Between these two, kernels differ only in their options.
+# The kernels of the instruction sets between these two differ only in their options.
 KERNELS = tuple(f"/lib/src/kernel/{name}.cpp" for name in ("baseline", "avx512", "precise_baseline", "precise_avx512", "faces"))
 # Views, and the algorithms that return one.
 VIEW = re.compile(r"\bviews::|ranges::(subrange|unique|remove|partition|stable_partition|rotate|search|equal_range|find_end)\w*\b")

@@ -1,4 +1,4 @@
-"""Runs the command through test-command-server (server/main.cpp) if it is running, which saves a quarter of a second."""
+"""Runs the command, through test-command-server (server/main.cpp) if that is running: this saves 0.25 s per command."""
 
 import contextlib
 import os
@@ -8,13 +8,13 @@ import subprocess
 import tempfile
 
 COMMAND = os.environ["PHASETREE_COMMAND"]
-# The variable of the environment that holds the path of a running server's socket.
+# The environment variable that holds the path of a running server's socket.
 SOCKET = "PHASETREE_COMMAND_SOCKET"
 
 
 @contextlib.contextmanager
 def server():
-    """Runs a server for this process and its children, if there is one to run."""
+    """Runs a server for this process and its children, if the build has one."""
     program = os.environ.get("PHASETREE_COMMAND_SERVER", "")
     if not os.access(program, os.X_OK):
         yield
@@ -33,7 +33,7 @@ def server():
 
 
 def exit_code(words: list[str], streams: tuple[int, int, int] = (0, 1, 2), cwd=None) -> int:
-    """Runs the command with these words and standard streams."""
+    """Runs the command with these arguments and standard streams, and returns its exit code."""
     path = os.environ.get(SOCKET)
     if not path:
         return subprocess.run([COMMAND, *words], stdin=streams[0], stdout=streams[1], stderr=streams[2], cwd=cwd).returncode
@@ -51,7 +51,7 @@ def exit_code(words: list[str], streams: tuple[int, int, int] = (0, 1, 2), cwd=N
 
 
 def run(words: list[str], given: str = "", cwd=None) -> subprocess.CompletedProcess:
-    """Like subprocess.run(), with text as input and output."""
+    """Runs the command like subprocess.run(), with text as input and output."""
     with tempfile.TemporaryFile() as stdin, tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         stdin.write(given.encode())
         stdin.seek(0)

@@ -146,7 +146,7 @@ class Snippets(unittest.TestCase):
         arguments = ["render", "-", "--spp", "1", "--size", "32x24", "--quiet", "-o", os.devnull + ".png"]
         with tempfile.TemporaryDirectory() as folder:
             arguments[-1] = f"{folder}/picture.png"
-            # Rendering checks a scene, too, except for what it expects.
+            # Rendering checks the scene too, except for its "expect".
             for words in [*([["check", "-"]] if not render or "expect" in scene else []), *([arguments] if render else [])]:
                 done = forked.run(words, json.dumps(scene), cwd=ROOT / "scenes")
                 self.assertEqual(done.returncode, 0, f"{block}\n{done.stderr}{done.stdout}")

@@ -12,10 +12,10 @@ each phase,
 * the phase that the file bounds must have the labels of the scene, at random points farther from the phase's surface
   than the spacing. Half of the points are uniform in the bounds, half are near the surface.
 
-Where something is thinner than 1.2 spacings, points may have other labels (tracer/manual/how-to/export.md). So for each
-wrong label the thickness of what lies between the point and the phase is measured: the shortest chord through the point,
-and through points on its way to the phase, within the region of one label. Wrong labels with chords of at least 1.2
-spacings are faults. A row per scene and spacing is printed, as it is finished. The exit status is 1 if anything is wrong.
+Near parts thinner than 1.2 spacings, points may have wrong labels (tracer/manual/how-to/export.md). So for each wrong
+label, the thickness there is measured: the shortest chord within the region of one label, through the point itself or
+through points on its way to the phase. Wrong labels with chords of at least 1.2 spacings are faults. The script prints
+a row as soon as it finishes a scene and spacing. The exit status is 1 if anything is wrong.
 
 Needs Debian's admesh, libcgal-dev, g++ and python3-numpy. Compiling self_intersections.cpp takes minutes; --crossings
 names the program if it is already compiled.
@@ -98,7 +98,7 @@ def probes(rng, count, vertices, triangles, bounds, spacing):
 
 
 def directions(count):
-    """Directions that are evenly distributed over a hemisphere, by a Fibonacci spiral."""
+    """Directions distributed evenly over a hemisphere, on a Fibonacci spiral."""
     z = (np.arange(count) + 0.5) / count
     turn = np.arange(count) * math.pi * (3 - math.sqrt(5))
     r = np.sqrt(1 - z * z)
@@ -107,8 +107,8 @@ def directions(count):
 
 def thickness_on_way(scene_object, point, index, spacing):
     """The shortest chord, in spacings, through a point with a wrong label, or through points on the shortest way from it
-    to the phase, or to the phase's outside. A chord is a straight line in one direction of 256, within the region of one
-    label, which is found in steps of 1/16, and then by bisection. It is at most 4."""
+    to the phase, or out of the phase. A chord is a straight line within the region of one label, in one of 256
+    directions. Its ends are found in steps of 1/16, then by bisection. Its length is at most 4."""
     steps = np.arange(1, 33) / 16
     there = 256
 
@@ -144,7 +144,7 @@ def thickness_on_way(scene_object, point, index, spacing):
 
 
 def wrong_labels(scene_object, name, path, surface, spacing, count):
-    """How many points were compared; how many of them have a wrong label; how many of these are at parts that are thin."""
+    """The number of points compared, of those with a wrong label, and of wrong labels at thin parts."""
     read = pt.mesh(path).set(pt.phase("read"))
     rng = np.random.default_rng(7)
     points = probes(rng, count, *surface, scene_object.bounds, spacing)

@@ -301,7 +301,7 @@ TEST_CASE("no ray meets vacuum between glass and water, whether they overlap, to
         CAPTURE(larger_by);
         const Phased apart = filled(hollow(), water_larger_by(larger_by));
         const Slivers before = slivers(apart, rays / 3), after = slivers(closed(apart), rays);
-        MESSAGE(before.slivers, " slivers in a third of the rays before; ", after.wetted,
+        MESSAGE(before.slivers, " slivers before, in a third as many rays; ", after.wetted,
                 " crossings from glass to water or back");
         CHECK(after.slivers == 0);
         CHECK(after.wetted > rays);

@@ -76,7 +76,7 @@ TEST_CASE("components of every node are 1-Lipschitz and do not overlap") {
         // A bound that is far too large would be safe but slow, so some pair must have a slope close to 1. A periodic
         // sheet has the slope 1 only at single points, which have separate tests (fractal_noise.cpp), and Voronoi
         // phases only between two sites. Nodes that displace space by noise are steep only where the displacement is
-        // small. Not every set of trees contains such a place, so more trees are drawn until one is found.
+        // small. Not every set of trees contains such a place, so the test draws more trees until it finds one.
         const bool sheet =
             kind.name == "gyroid" || kind.name == "schwarz_p" || kind.name == "schwarz_d" || kind.name == "voronoi";
         const double wanted = sheet ? 0.8 : 0.99;

@@ -273,8 +273,8 @@ TEST_CASE("a plate and a slit 1.2 times as thick as the grid are whole, however 
     CHECK(off * 2000 < vertices);
 }
 
-// Vertices of such thin parts may lie outside their cubes, on the other side of the part.
-TEST_CASE("parts smaller than the grid are not turned over") {
+// Vertices of thin parts may lie outside their cubes, on the other side of the part.
+TEST_CASE("parts smaller than the grid spacing are not turned inside out") {
     Random rng(11);
     std::size_t parts = 0, turned = 0, faults = 0;
     for (int i = 0; i < 1500; ++i) {
@@ -283,14 +283,14 @@ TEST_CASE("parts smaller than the grid are not turned over") {
             Intersection{.of = {ball, Slab{.normal = rng.direction(), .thickness = rng.uniform(0.1f, 0.6f)}}};
         const Phased object = of(one, warped(Translate{rng.in({glm::vec3(-1), glm::vec3(1)})}, disc));
         const InterfaceTracer tracer(object);
-        // The grid is that of a larger box, so that discs lie anywhere in its cubes.
+        // The grid belongs to a larger box, so that discs lie anywhere relative to its cubes.
         const PhaseMesh mesh = mesh_of({glm::vec3(-4), glm::vec3(4)}, line_tracer(tracer), {.spacing = 1});
         if (mesh.triangles.empty()) continue;
         ++parts;
         turned += !(volume_of(mesh, one) > 0);
         faults += faults_of(mesh, PhaseSet::of(one));
     }
-    MESSAGE(parts, " parts, ", turned, " turned over");
+    MESSAGE(parts, " parts, ", turned, " turned inside out");
     CHECK(parts > 300);
     CHECK(turned == 0);
     CHECK(faults == 0);

@@ -1,5 +1,5 @@
-// Samples and crossings in double precision, several at a time: the same bits as one at a time, with every instruction
-// set.
+// Samples and crossings in double precision, computed several at a time, have the same bits as if computed one at a
+// time, with every instruction set.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -49,7 +49,7 @@ bool are_same(const PreciseCrossing& a, const PreciseCrossing& b) {
 
 }  // namespace
 
-TEST_CASE("samples of random trees in batches have the bits of single samples") {
+TEST_CASE("samples of random trees in batches equal single samples, bit for bit") {
     const FlushSubnormals flush;
     std::size_t batches = 0, trees = 0;
     with_each_target([&](const std::string& target) {
@@ -70,7 +70,7 @@ TEST_CASE("samples of random trees in batches have the bits of single samples") 
     CHECK(batches > trees / 4);
 }
 
-TEST_CASE("crossings of many rays have the bits of those of single rays") {
+TEST_CASE("crossings of many rays equal those of single rays, bit for bit") {
     std::size_t crossings = 0;
     with_each_target([&](const std::string& target) {
         Random rng(412);

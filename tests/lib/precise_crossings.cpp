@@ -136,7 +136,7 @@ void report(const char* what, const Totals& t) {
 //
 //     PHASETREE_LONG_TESTS=1 build/release/tests/test-lib -sf='*/precise_crossings.cpp' -tc='no crossing*,nor in*'
 //
-// It can also be run in parts: PHASETREE_RAYS_PER_TREE=N takes N rays for each tree instead of 120,000, and
+// It can also be run in parts: PHASETREE_RAYS_PER_TREE=N takes N rays per tree instead of 120,000, and
 // PHASETREE_PART_OF_RAYS=K takes other rays through the same trees for each K.
 TEST_CASE("no crossing is lost or found twice in trees with exact constants") {
     const Totals totals = check_scenes(401, 50, true, [](int, Random& rng) { return exact_scene(rng); });

@@ -94,8 +94,8 @@ def read_obj(path):
 
 
 def read_3mf(path):
-    """The parts of a 3MF file: name, base material, vertices and triangles. They are the triangles of one object, by
-    their materials, and also by the ranges that PrusaSlicer reads."""
+    """The parts of a 3MF file: name, base material, vertices and triangles. Checks that the materials divide the
+    triangles of the one object in the same way as the ranges that PrusaSlicer reads."""
     space = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
     with zipfile.ZipFile(path) as package:
         assert package.testzip() is None

@@ -1,5 +1,5 @@
-"""The notebooks run, and what their last lines give can be shown. The short form solves for a level with four times the
-tolerance. In the long form nbconvert runs them as Jupyter does. The README's tentacle runs, too."""
+"""The notebooks run, and the values of their last lines can be displayed. The short form solves for a level with four
+times the tolerance. In the long form, nbconvert also runs them as Jupyter does. The README's tentacle runs, too."""
 
 import ast
 import json

@@ -36,7 +36,7 @@ def gallery_scenes():
 
 
 def gallery_scenes_for_the_command():
-    """Those that a test starts the command for: one of four in the short form, because starting it takes a quarter of a second."""
+    """The scenes for tests that start the command: one in four in the short form, because starting it takes 0.25 s."""
     return gallery_scenes() if os.environ.get("PHASETREE_LONG_TESTS") else gallery_scenes()[1::4]
 
 

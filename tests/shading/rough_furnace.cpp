@@ -39,8 +39,8 @@ constexpr double tolerance_between = 0.002;
 // side over that of this side.
 glm::dvec3 furnace(const tracer::Bsdf& bsdf, const glm::vec3& wo, double square = 1.0) {
     // Equal steps in the first dimension and two of Sobol's dimensions form a net, whose error is far below that of
-    // random points. With an eighth of the points, it would be as large as the tolerance. The short form takes half of
-    // them.
+    // random points. With an eighth of the points, the error would be as large as the tolerance. The short form takes
+    // half of them.
     const std::uint32_t samples = 1u << (long_tests() ? 17 : 16);
     const auto fraction = [](std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f + 0x1p-25f; };
     glm::dvec3 sum(0.0);

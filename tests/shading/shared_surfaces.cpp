@@ -10,7 +10,7 @@ namespace test_shared_surfaces {
 
 using namespace phasetree::tracer;
 
-TEST_CASE("between scenes surfaces that are in use stay, and all else is recreated") {
+TEST_CASE("between scenes, surfaces in use are kept, and all others are recreated") {
     SharedSurfaces surfaces;
     const auto coating = [&](float ior) { return surfaces.coating(1, ior, ValueRange{0.2f, 0.2f}, std::nullopt); };
     const auto dielectric = [&](float ior) { return surfaces.dielectric(1, ior, std::nullopt, std::nullopt); };
@@ -40,7 +40,7 @@ TEST_CASE("an interface of two dielectrics has the same bits in each scene, whic
         const auto multiple = surface.multiple(0.3f);
         return Bits{surface.eta(), multiple.from.at(cosine).x, multiple.to.at(cosine).x, multiple.transmitted.x};
     };
-    // Both sides of the interface, in the order in which they are asked for.
+    // Both sides of the interface, in the order in which they are requested.
     const auto scene = [&](SharedSurfaces& surfaces, bool begins_inside) {
         surfaces.begin_scene();
         const auto first = surfaces.dielectric(begins_inside ? glass : air, begins_inside ? air : glass, roughness, {});
@@ -58,11 +58,11 @@ TEST_CASE("an interface of two dielectrics has the same bits in each scene, whic
         const auto same_way = scene(used, begins_inside);
         CHECK(bits_of(*same_way.first) == bits_of(*expected.first));
         CHECK(bits_of(*same_way.second) == bits_of(*expected.second));
-        // What was computed is used again.
+        // Computed surfaces are reused.
         CHECK(scene(used, !begins_inside).first == other_way.first);
         CHECK(scene(used, begins_inside).first == same_way.first);
     }
-    // Otherwise the test would prove nothing: a reversed surface differs from one that is computed.
+    // A reversed surface differs from a computed one; otherwise the test would prove nothing.
     SharedSurfaces a, b;
     CHECK_FALSE(bits_of(*scene(a, false).second) == bits_of(*scene(b, true).first));
 }

@@ -136,11 +136,11 @@ inline Walk walked(const PreciseTracer& tracer, const PreciseRay& ray) {
     return walked(tracer, std::span(&ray, 1)).front();
 }
 
-/// The same by one search per crossing, each from the far end of the last.
+/// The same, with one search per crossing, each from the far end of the previous one.
 inline std::vector<Walk> restarted(const PreciseTracer& tracer, std::span<const PreciseRay> rays) {
     std::vector<Walk> walks(rays.size());
     std::vector<PreciseRay> going(rays.begin(), rays.end());
-    std::vector<std::size_t> number(rays.size());  // of the rays that go on
+    std::vector<std::size_t> number(rays.size());  // of the rays that continue
     std::vector<double> behind(rays.size(), 0.0);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         number[i] = i;

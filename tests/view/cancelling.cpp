@@ -1,4 +1,4 @@
-// Work on a scene that takes long is cancelled when a newer one is wanted, also while the object's program is recorded.
+// Long work on a scene is cancelled when a newer scene is wanted, even while the object's program is being recorded.
 #include <doctest/doctest.h>
 
 #include "phasetree/io/document.hpp"
@@ -10,7 +10,7 @@ namespace test_cancelling {
 
 using namespace phasetree;
 
-TEST_CASE("recording a program is cancelled") {
+TEST_CASE("recording a program can be cancelled") {
     // 40,000 balls.
     const tracer::Scene scene = tracer::read_scene(Document::from_text(
         R"({"version": 1, "phases": {"wood": {"diffuse": {"color": [0.5, 0.3, 0.1]}}},

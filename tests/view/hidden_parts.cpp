@@ -1,4 +1,4 @@
-// Parts of a scene that the view leaves out: the text without them, and where they are after the text has changed.
+// Hidden parts of a scene: the text without them, and their pointers after the text has changed.
 #include "studio/hidden_parts.hpp"
 
 #include <doctest/doctest.h>
@@ -34,7 +34,7 @@ const Vocabulary& vocabulary() {
     return words;
 }
 
-// A member of the scene without hidden parts. Everything that remains is where it was.
+// A member of the scene without hidden parts. Checks that everything else keeps its offset.
 nlohmann::json left(const char* key, const Pointers& hidden) {
     const std::string text = text_without(Document::from_text(scene), vocabulary(), hidden);
     REQUIRE(text.size() == scene.size());
@@ -59,7 +59,7 @@ std::string replaced(std::string text, const std::string& old, const std::string
 
 }  // namespace
 
-TEST_CASE("an item of a list is left out, with one comma") {
+TEST_CASE("a hidden item of a list is removed with one comma") {
     CHECK(left("tree", {}).at("over").size() == 2);
     CHECK(left("tree", {"/tree/over/1"}) == json(R"({"over": [{"set": {"phase": "glass", "of": "ball"}}]})"));
     CHECK(left("tree", {"/tree/over/0"}).at("over").size() == 1);
@@ -69,13 +69,13 @@ TEST_CASE("an item of a list is left out, with one comma") {
     CHECK(left("meshes", {"/meshes/0"}) == json("[]"));
 }
 
-TEST_CASE("without an operand, a node becomes its main operand, or is left out") {
+TEST_CASE("a node without an operand is replaced by its main operand or removed") {
     const char* const subtracted = "/tree/over/1/set/of/difference/subtract/";
     const std::string first = subtracted + std::string("0"), second = subtracted + std::string("1");
     const auto wood = [](const Pointers& hidden) { return left("tree", hidden).at("over").at(1).at("set").at("of"); };
     CHECK(wood({first}).at("difference").at("subtract").size() == 1);
     CHECK(wood({first, second}) == json(R"({"box": {"size": [1, 2, 3]}})"));
-    // What is moved is hidden with the mover.
+    // Hiding the operand of `translate` hides the `translate`, too.
     CHECK(wood({second + "/translate/of"}) == wood({second}));
     CHECK(left("tree", {"/tree/over/1/set/of/difference/from"}).at("over").size() == 1);
     CHECK(left("tree", {"/tree/over/0/set/of"}).at("over").size() == 1);
@@ -104,7 +104,7 @@ TEST_CASE("pointers to nothing are ignored, and something must remain") {
                              doctest::Contains("every part of the object is hidden"), SceneError);
 }
 
-TEST_CASE("hidden parts stay the same ones when the text changes") {
+TEST_CASE("the same parts stay hidden when the text changes") {
     const Pointers box{"/tree/over/1"}, sun{"/lights/1"};
     SUBCASE("before and behind them") {
         const std::string longer = replaced(scene, R"("radius": 0.5)", R"("radius": 0.50001)");

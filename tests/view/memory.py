@@ -1,5 +1,5 @@
-"""The memory of the server while a scene is edited: what reading and building large scenes took is given back, whichever of the
-server's threads they used, and the history has a limit."""
+"""The server's memory while a scene is edited: memory for reading and building large scenes is returned to the system,
+whichever of the server's threads used it."""
 
 import json
 import pathlib
@@ -13,7 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from studio_random import kilobytes  # noqa: E402
 from support import PATIENCE, View  # noqa: E402
 
-# Copies of copies, of a size that takes about 100 MB and half a second to prepare.
+# Copies of copies, which take about 100 MB and half a second to prepare.
 COPIES = ('{"proxy": {"of": {"fibonacci_sphere": {"count": 50, "radius": 0.5, "of": {"fibonacci_disk": {"count": %d, "radius": 0.1, "of": {"sphere": '
           '{"radius": 0.01}}}}}}, "proxy": {"sphere": {"radius": 0.7}}, "error": 0.01, "margin": 0.1}}')
 SCENE = """{"version": 1,
@@ -30,7 +30,7 @@ OF = "/tree/set/of"
 
 class Memory(unittest.TestCase):
     def edit(self, view, value, threads=1):
-        """The same edit in several requests at once, so that several threads check it."""
+        """Sends the same edit in several simultaneous requests, so that several threads check it."""
         answers = []
 
         def send():
@@ -64,7 +64,7 @@ class Memory(unittest.TestCase):
                 time.sleep(0.2)
             grown = kilobytes(view.process) - before
             print(f"{before} KiB, at most {most} KiB; grown by {grown} KiB", file=sys.stderr)
-            # Otherwise the scenes would not be large.
+            # If not, the scenes are too small for this test.
             self.assertGreater(most - before, 100 * 1024)
             self.assertLess(grown, 80 * 1024)
 

@@ -1,5 +1,5 @@
-"""What the studio shows of a selection over HTTP: the pixels of selected parts, scenes without hidden parts, and the files that a
-parameter may name."""
+"""Selections, hidden parts and file lists over HTTP: the pixels of selected parts, pictures without hidden parts, and
+the files that a parameter may name."""
 
 import json
 import os
@@ -12,7 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from support import View, changed, is_ready, rendered  # noqa: E402
 
 WIDTH, HEIGHT = 96, 64
-# From the left: a ball of glass with one of wood in it, and a ball of wood behind a wall of glass. A floor reaches to the
+# From the left: a glass ball with a wooden ball inside, and a wooden ball behind a glass wall. A floor reaches to the
 # horizon.
 SCENE = """{"version": 1,
 "phases": {"glass": {"clear": {"ior": 1.5}}, "pane": {"clear": {"ior": 1.5}}, "wood": {"diffuse": {"color": [0.6, 0.3, 0.1]}}},
@@ -49,7 +49,7 @@ class Selected(unittest.TestCase):
         return (min(xs), min(ys), max(xs) + 1, max(ys) + 1, len(places)) if places else None
 
     def assert_is(self, mask, expected, pixels):
-        """The box within a pixel, and the number within 3 %."""
+        """Checks the box to a pixel, and the number of pixels to 3 %."""
         found = self.box(mask)
         self.assertIsNotNone(found)
         for a, b in zip(found[:4], expected):
@@ -57,7 +57,7 @@ class Selected(unittest.TestCase):
         self.assertLessEqual(abs(found[4] - pixels), 0.03 * pixels + 4, (found, pixels))
 
     def test_parts_are_where_they_are_seen(self):
-        # Pixels per unit at the distance 5: 64 of them see 2·5·tan 15°.
+        # Pixels per unit at a distance of 5, where 64 pixels cover 2·5·tan 15°.
         scale = 64 / (2 * 5 * 0.2679492)
         with View(SCENE) as view:
             view.ready()
@@ -73,7 +73,7 @@ class Selected(unittest.TestCase):
             x, radius = 48 + 0.8 * farther, 0.5 * farther * (1 + 0.5 * 0.5 ** 2 / 36)
             self.assert_is(self.mask(view, "/tree/over/2"), (x - radius, 32 - radius, x + radius, 32 + radius), 3.14159 * radius ** 2)
             pane = self.box(self.mask(view, "/tree/over/3"))
-            # Several, and whole phases.
+            # Several parts, and whole phases.
             both = self.box(self.mask(view, "/tree/over/1", "/tree/over/3"))
             self.assertEqual((both[0], both[2]), (self.box(self.mask(view, "/tree/over/1"))[0], pane[2]))
             wood = self.mask(view, phases=["wood"])
@@ -101,7 +101,7 @@ class Selected(unittest.TestCase):
             after = self.box(self.mask(view, "/tree/over/1"))
             self.assertLessEqual(abs(before[0] - (WIDTH - after[2])), 1)
 
-    def test_wrong_requests_are_refused(self):
+    def test_wrong_requests_are_rejected(self):
         with View(SCENE) as view:
             view.ready()
             for body in ("", "[]", {}, {"pointers": []}, {"pointers": 1, "phases": []}, {"pointers": [1], "phases": []},
@@ -150,7 +150,7 @@ class Hidden(unittest.TestCase):
             self.assertEqual(self.edit(view, {"move": "/tree/over/1", "to": "/tree/over/0"}).state["hidden_parts"], ["/tree/over/0"])
             hidden = self.picture(view)
             self.assertEqual(self.edit(view, {"remove": "/tree/over/0"}).state["hidden_parts"], [])
-            # The hidden part was the one that has been removed.
+            # The removed part was the hidden one.
             self.assertEqual(self.picture(view), hidden)
 
     def test_numbers_and_the_time_may_be_changed_meanwhile(self):
@@ -217,7 +217,7 @@ class Files(unittest.TestCase):
                 self.assertEqual(view.request("GET", f"/{'0' * 32}/files?type=mesh&kind=obj").status, 403)
                 self.assertEqual(view.get("files?type=mesh&kind=obj", headers={"Origin": "http://example.org"}).status, 403)
 
-    def test_large_folders_end(self):
+    def test_the_list_of_a_large_folder_is_limited(self):
         with View() as view:
             for i in range(600):
                 (view.file.parent / f"{i:03}.obj").write_bytes(b"")

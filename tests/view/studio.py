@@ -207,8 +207,8 @@ class Quick(unittest.TestCase):
             view.wait_for(lambda s: is_ready(s) and s["version"] > 0)
             self.assertLess(self.seconds(view) - begun, 4 * PATIENCE)
 
-    def test_a_picture_is_shown_as_the_present_view_says(self):
-        """Display transforms are kept by exposure."""
+    def test_a_picture_is_shown_with_the_current_view(self):
+        """The studio keeps display transforms per exposure, so they must not outlive a change of the view."""
         with View() as view:
             view.ready()
             pixels = []

@@ -194,8 +194,8 @@ class Random(unittest.TestCase):
             editor.read()
             self.assertEqual(editor.text, SCENE)
             self.assertIsNone(editor.told["undo"])
-            # Steps of undo need memory for what they change, which is a part of the text. Freed memory is given back after
-            # seconds, except for 64 MiB.
+            # An undo step takes as much memory as the part of the text that it changes. Freed memory is returned to the
+            # system after seconds, except for 64 MiB.
             view.wait_for(lambda state: state["doing"] == "Ready", within=600)
             most, end = begun + 96 * 1024 + OPERATIONS, time.monotonic() + 20 * PATIENCE
             while kilobytes(view.process) > most and time.monotonic() < end:

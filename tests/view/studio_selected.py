@@ -1,5 +1,5 @@
-"""What the studio's page shows of a selection, in Chromium: its outline in the picture, hidden parts, files to choose from, the unit
-of lengths, and whether the file is valid."""
+"""The studio's page in Chromium: the outline of the selection in the picture, hidden parts, files to choose from, the
+unit of lengths, and whether the file is valid."""
 
 import json
 import pathlib
@@ -40,7 +40,7 @@ class Selected(StudioCase):
     def test_the_selection_is_outlined_where_it_is_seen(self):
         self.open(LARGER)
         self.until("studio.view.canvas.width > 1")
-        # Shares of the picture's width and height per unit at the distance 5.
+        # Fractions of the picture's height and width per unit at a distance of 5.
         high = 1 / (2 * 5 * 0.2679492)
         wide = high * 3 / 4
         ball = [0.5 + (0.6 - 0.503) * wide, 0.5 - 0.503 * high, 0.5 + (0.6 + 0.503) * wide, 0.5 + 0.503 * high]
@@ -56,13 +56,13 @@ class Selected(StudioCase):
         box = self.outlined()
         self.assertLess(box[0], 0.35)
         self.shoot("selected-phase")
-        # What is moved is outlined at its new place.
+        # A part that has moved is outlined at its new place.
         self.select("/tree/over/0")
         self.step(lambda: self.browser.run("studio.scene.perform({label: 'Move', operations: [{set: '/tree/over/0/set/of/translate/by', to: '[0.6, 0, 0.4]'}]})"))
         self.until(f"{OUTLINE} && {OUTLINE}.getBoundingClientRect().top < document.getElementById('picture').getBoundingClientRect().top + "
                    f"{ball[1] - 0.3 * high} * document.getElementById('picture').getBoundingClientRect().height")
         self.assert_near(self.outlined(), [ball[0], ball[1] - 0.4 * high, ball[2], ball[3] - 0.4 * high])
-        # And where it is after the camera has been turned.
+        # So is a part after the camera has turned.
         before = self.outlined()
         self.browser.run("studio.view.tabs.show('view')")
         self.click("[data-turn='1 0']")
@@ -84,7 +84,7 @@ class Selected(StudioCase):
             self.until(f"Math.abs(document.getElementById('selected-outline').getBoundingClientRect().width - document.getElementById('picture').getBoundingClientRect().width) < 1")
             self.assert_near(self.outlined(), before, 0.01)
         self.browser.resize(1280, 720)
-        # Neither settings nor nothing have an outline.
+        # Settings have no outline, and neither does an empty selection.
         for pointers in (["/camera"], []):
             self.select("/tree/over/0")
             self.outlined()
@@ -103,13 +103,13 @@ class Selected(StudioCase):
         self.assertEqual(self.browser.run(f"{row}.querySelector('.eye').getAttribute('aria-label').slice(0, 4)"), "Show")
         self.assertEqual(self.file(), GLASSES)
         self.shoot("hidden-ball")
-        # Also while the scene is edited.
+        # The part stays hidden while the scene is edited.
         self.step(lambda: self.browser.run("studio.scene.perform({label: 'Move', operations: [{move: '/tree/over/0', to: '/tree/over/2'}]})"))
         self.until("document.querySelector('[data-key=\"/tree/over/2\"]').classList.contains('is-hidden')")
         self.assertFalse(self.browser.run("document.querySelector('[data-key=\"/tree/over/0\"]').classList.contains('is-hidden')"))
         self.step(lambda: self.browser.run("studio.actions.undo()"))
         self.until(f"{row}.classList.contains('is-hidden')")
-        # By keys: all selected parts, and everything again.
+        # Keys hide all selected parts, and show everything again.
         self.select("/tree/over/0", "/tree/over/1", "/lights/0")
         self.browser.run("document.activeElement.blur()")
         self.key("h")

@@ -99,7 +99,7 @@ class View:
     def request(self, method, path, body=None, headers=None, timeout=30):
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout)
         with contextlib.closing(connection):
-            # A server may answer before it has read all of a body that is too large.
+            # A server may answer before it has read all of an oversized body.
             with contextlib.suppress(BrokenPipeError, ConnectionResetError):
                 connection.request(method, path, body, headers or {})
             answer = connection.getresponse()

@@ -113,8 +113,8 @@ TEST_CASE("files of 1 to 300 leaves are read, whatever their values, halves and 
     const bool all = tests::long_tests();
     for (int leaves = 1; leaves <= 300; ++leaves)
         for (const std::uint32_t compression : compressions) {
-            // The short form has each third number of leaves, and those at which something changes, with what OpenVDB
-            // uses unless told otherwise, and one more.
+            // The short form reads every third number of leaves with OpenVDB's default compression and one other, and
+            // the numbers in `ends` with all of them.
             const bool is_default = compression == 6, is_end = ends.contains(leaves);
             if (!all && !is_end && leaves % 3 != 0) continue;
             if (!all && !is_default && !is_end && compressions[static_cast<std::size_t>(leaves % 5)] != compression)

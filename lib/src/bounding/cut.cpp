@@ -106,9 +106,9 @@ class Cutter {
         if (rest.empty()) return {};
         return unite({in.b, side, tau}, {in.a, side, tau}, rest, of_both_side);
     }
-    // A box around the parts of `box` in either level set. The order matters, because the steps that the first one
-    // takes are missing for the second one. As arguments of one call, compilers would evaluate them in different
-    // orders.
+    // A box around the parts of `box` in either level set. The order matters, because the two share a limit of steps:
+    // those that the first one takes are no longer available to the second one. If both were arguments of one call, the
+    // order would depend on the compiler.
     LaneBox unite(const LevelSet& first, const LevelSet& second, const LaneBox& box, Side already_cut = Side::at) {
         const LaneBox around_first = box_around(first, box, already_cut);
         return bounding::unite(around_first, box_around(second, box, already_cut));

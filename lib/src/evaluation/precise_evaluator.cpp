@@ -103,7 +103,7 @@ PreciseEvaluator::PreciseEvaluator(const Phased& object) {
 
 namespace {
 
-// Finds the label and distances from the components, value(output).
+// Finds the label and the distances from the components; value(output) returns a component.
 template <class Value>
 CarriedSample classified(const PreciseProgram& program, Phase carried, Value&& value) {
     constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -24,7 +24,7 @@ struct CarriedSample : PreciseSample {
 };
 CarriedSample sample_for(const PreciseProgram&, const glm::dvec3& p, Phase carried);
 
-/// The same for at most eight points. The results are the same, bit for bit.
+/// The same for at most eight points, with the same results, bit for bit.
 struct SampleQuery {
     glm::dvec3 point;
     Phase carried;

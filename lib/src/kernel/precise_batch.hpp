@@ -50,7 +50,7 @@ HWY_INLINE PreciseBatch each_register(F&& f) {
     PHASETREE_EACH r.v[i] = f(i);
     return r;
 }
-/// A function of the library, lane by lane.
+/// Applies a scalar function to each lane.
 template <class F>
 HWY_INLINE PreciseBatch each_lane(const PreciseBatch& a, F&& f) {
     alignas(64) double x[batch_size];
@@ -146,7 +146,7 @@ HWY_INLINE PreciseBatch angle_of(const PreciseBatch& x, const PreciseBatch& y) {
     return load(a);
 }
 
-// Programs that search are not run in batches; see can_run().
+// Never called: programs that search do not run in batches (PreciseProgram::runs_in_batches).
 template <class Search, class Equation, class Otherwise>
 HWY_INLINE PreciseBatch found_equation(const Vec3<PreciseBatch>& p, const Search&, const Equation&, const Otherwise&) {
     return p.x;

@@ -1,4 +1,4 @@
-// The functions that batches of doubles share, and the choice of the instruction set.
+// Scalar functions that all kernels in double precision share, and the choice of the instruction set.
 #include <cmath>
 
 #include "kernel/precise_kernel.hpp"

@@ -11,8 +11,8 @@ namespace phasetree::kernel {
 /// aligned to 64 bytes; slots 0 … 2 hold the points. Every lane gets the same bits as a run with Precise<0>.
 using RunPrecisely = void (*)(const Routine&, double* registers);
 
-/// Whether all steps of a routine can be run in this way: primitives with data cannot. The caller also has to exclude
-/// programs that search in floats.
+/// Whether a RunPrecisely can run all steps of a routine. It cannot run primitives with data. The caller must also
+/// exclude programs that search in floats.
 bool can_run_precisely(const Routine&);
 
 /// The function for the instruction set of a kernel.

@@ -110,9 +110,9 @@ class Separation {
                 changed.push_back(i);
         return changed;
     }
-    // Free vertices may be outside their cubes. So a part of a phase that is smaller than the spacing can be turned
-    // over as a whole: its triangles do not cross, but face inward. The volume of the part then has another sign than
-    // with all vertices in the centres of their cubes. Its vertices move into their cubes, and turn it back.
+    // Free vertices may lie outside their cubes. So a part of a phase that is smaller than the spacing can turn inside
+    // out: its triangles do not cross, but face inward. The sign of the part's volume then differs from the sign with
+    // all vertices in the centres of their cubes. Moving its vertices into their cubes turns the part back.
     std::vector<std::uint32_t> raise_turned_over() {
         std::vector<char> is_raised(placements_.size(), 0);
         std::vector<std::uint32_t> parent(placements_.size());
@@ -158,7 +158,7 @@ class Separation {
         });
         return raise(is_raised);
     }
-    // In front, and behind.
+    // The phases in front of a quad and behind it.
     std::array<Phase, 2> phases_of(const Quad& q) const {
         const Phase first = cut_.labels[cut_.grid.index(q.point)],
                     second = cut_.labels[cut_.grid.index(q.point + unit(q.axis))];

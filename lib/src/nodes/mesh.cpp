@@ -28,8 +28,8 @@ constexpr std::uint32_t most_in_leaf = 4;
 // The error of a product with a unit vector, relative to the length of the other factor.
 constexpr double product_error = 0x1p-22;
 
-// Cosines of half of the angle between the normals of an edge's faces: if it is less, the edge's region has any
-// direction; if it is less than the second, the directions are on one side.
+// Limits on the cosine of half the angle between the normals of an edge's faces. Below the first, the directions of the
+// edge's region are not limited. Below the second, the edge is bent, and they are limited to one side.
 constexpr double least_cosine = 0x1p-6, most_cosine_of_bent_edges = 0.966;
 
 void append(std::vector<float>& floats, const glm::dvec3& v) {
@@ -149,7 +149,7 @@ class TableWriter {
         table.push_back(static_cast<float>(e.is_rim() ? std::numbers::pi : angle_between(m, n) / 2));
         append_limits_of_edge(e, table);
     }
-    // What limits the directions of an edge's region: see mesh_pieces.hpp.
+    // The three numbers that limit the directions of an edge's region: see mesh_pieces.hpp.
     void append_limits_of_edge(const SharedEdge& e, std::vector<float>& table) const {
         const glm::dvec3 &m = s_.normals[e.triangles[0]], &n = s_.normals[e.triangles[1]];
         const double cosine = glm::length(m + n) / 2;

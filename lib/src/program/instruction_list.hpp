@@ -19,7 +19,7 @@ class InstructionList {
     /// program exceeds the limit of instructions or constants.
     std::uint32_t emit(Op op, std::uint32_t a, std::uint32_t b, std::span<const float> constants, float lipschitz);
 
-    /// Counts steps of work. Throws ModelError if there are too many, and PreparationCancelled. Subtrees whose
+    /// Counts steps of work. Throws ModelError if there are too many, or PreparationCancelled. Subtrees whose
     /// instructions already exist add nothing to the program, but still take time.
     void work(std::size_t steps);
 

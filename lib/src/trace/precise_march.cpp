@@ -143,7 +143,7 @@ void PreciseMarch::start_from(const Sample& s) {
     go_on();
 }
 
-// Goes on from the last sample, if the ray does not end there.
+// Continues from the last sample, unless the ray ends there.
 void PreciseMarch::go_on() {
     if (!(at_.t < end_)) return end_search();
     if (++samples_ < wait_ || !enclose_stretches()) take_step();
@@ -191,8 +191,8 @@ void PreciseMarch::count_slow_steps(double step) {
     }
 }
 
-// Asks for the sample at the end of stretches on which no other phase is deeper than rounding errors. Their length
-// doubles while that is proven, and is reduced where it is not. Returns whether any was proven.
+// Requests the sample at the end of stretches on which it is proven that no other phase is deeper than rounding errors.
+// Their length doubles after each proof, and is reduced after each failure. Returns whether any stretch was proven.
 bool PreciseMarch::enclose_stretches() {
     samples_ = 0;
     const double error = tracer_.enclosure_error();
@@ -231,7 +231,7 @@ void PreciseMarch::bracket(const Sample& low, const Sample& high) {
     bisect();
 }
 
-// Goes on until `low_` and `high_` are adjacent, and only the second has the label that is sought.
+// Continues until `low_` and `high_` are adjacent, and only the second has the label that is sought.
 void PreciseMarch::bisect() {
     if (high_.t - low_.t > finest_) {
         const double middle = 0.5 * (low_.t + high_.t);
@@ -253,7 +253,7 @@ void PreciseMarch::bisect() {
         bracket(Sample(lowest_), Sample(low_));
 }
 
-// Makes the crossing with this bracket. The next search begins at its far end, in the phase there.
+// Records the crossing with this bracket. The next search begins at its far end, in the phase there.
 void PreciseMarch::report_crossing(const Sample& in, const Sample& out) {
     PreciseCrossing c;
     c.t_from = (skipped_ + in.t) / length_;

@@ -15,7 +15,7 @@ double farthest_coordinate_of(const Bounds&);
 /// The search for crossings along one ray, in double precision: see the top of phasetree/trace/precise_tracer.hpp. The
 /// tracer must outlive it.
 ///
-/// The search is a state machine that asks for one sample at a time, so that the samples of several rays can be
+/// The search is a state machine that requests one sample at a time, so that the samples of several rays can be
 /// computed together:
 ///
 ///     march.begin();
@@ -35,12 +35,12 @@ class PreciseMarch {
     Phase phase() const { return carried_; }
     /// Begins the search for the next crossing.
     void begin();
-    /// The sample that is needed to go on; null if the search has ended.
+    /// The sample that the search needs next; null if it has ended.
     const Request* request() const { return stage_ == Stage::ended ? nullptr : &request_; }
     void take(const CarriedSample&);
     /// The crossing, after the search has ended; nullopt after the last one.
     const std::optional<PreciseCrossing>& found() const { return found_; }
-    /// All of the above for a single ray.
+    /// Does all of the above for a single ray.
     std::optional<PreciseCrossing> next();
 
   private:

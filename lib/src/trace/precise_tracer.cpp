@@ -59,7 +59,7 @@ double measured_difference(const PreciseProgram& program, const Bounds& bounds) 
 
 // Traces rays `begin` to `end` in one thread, as many at a time as a batch of samples has lanes. Calls started(ray,
 // phase) with the phase in which a ray starts, and crossed(ray, crossing) with each of its crossings, or nullopt at its
-// end. A ray goes on while that returns true.
+// end. A ray continues while `crossed` returns true.
 template <class Started, class Crossed>
 void march_together(const PreciseTracer& tracer, std::span<const PreciseRay> rays, std::size_t begin, std::size_t end,
                     Started&& started, Crossed&& crossed) {
@@ -82,7 +82,7 @@ void march_together(const PreciseTracer& tracer, std::span<const PreciseRay> ray
         }
         return false;
     };
-    // Goes on with the ray of a slot, or with another one. Returns false if there is none.
+    // Continues the ray of a slot, or starts another one. Returns false if there is none.
     const auto go_on_in = [&](std::size_t slot) {
         PreciseMarch& march = *marches[slot];
         while (!march.request()) {

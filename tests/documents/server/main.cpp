@@ -3,9 +3,9 @@
 //
 //     test-command-server SOCKET
 //
-// A request has the client's three standard streams, the number of its bytes, and as many bytes: texts that end with
-// zeros, which are the folder, the number of words, the words, and the variables of the environment. The answer is the
-// status that wait() returns. Ends when its standard input does.
+// A request consists of the client's three standard streams, a number of bytes, and these bytes: NUL-terminated strings
+// with the working folder, the number of arguments, the arguments, and the environment variables. The answer is the
+// status that wait() returns. The server exits when its standard input ends.
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -28,7 +28,7 @@ namespace {
 
 using Streams = std::array<int, 3>;
 
-// The number of bytes to follow, and the streams.
+// Receives the streams and the number of bytes that follow.
 bool receive_start(int client, std::uint32_t& size, Streams& streams) {
     iovec bytes{&size, sizeof size};
     alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(Streams))> control{};
@@ -57,10 +57,10 @@ bool receive_start(int client, std::uint32_t& size, Streams& streams) {
     const int code = phasetree::tracer::run_command(static_cast<int>(count), words.data());
     std::cout.flush();
     std::fflush(nullptr);
-    ::_exit(code);  // without destructors of libraries, which join their threads
+    ::_exit(code);  // skips destructors of libraries, which join their threads
 }
 
-// In a child of its own, so that several clients are served at a time.
+// Serves one client, in its own child process, so that several clients are served at the same time.
 [[noreturn]] void serve(int client) {
     std::uint32_t size = 0;
     Streams streams{};
@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
     for (;;) {
         std::array<pollfd, 2> waiting{{{listening, POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}}};
         if (::poll(waiting.data(), waiting.size(), -1) < 0) return 1;
-        // Whoever waits for the server then knows the processor time of all that it ran.
+        // Reaps children, so that the server's processor time includes that of all commands that it ran.
         while (::waitpid(-1, nullptr, WNOHANG) > 0) continue;
         if (waiting[1].revents != 0) return 0;
         const int client = ::accept(listening, nullptr, nullptr);

@@ -167,8 +167,8 @@ TEST_CASE("the top of a lake is a flat side under a sun exactly above it") {
 }
 
 TEST_CASE("no direction to a lamp's rim is said to be a direction to the sky") {
-    // Rounding puts one in a few thousand beyond the edge of some lamps, which depends on their directions and sizes.
-    // With the sky's density, such a direction would be a hundred thousand times too bright.
+    // Rounding puts one direction in a few thousand beyond the edge of some lamps, depending on their directions and
+    // sizes. With the sky's density, such a direction would be a hundred thousand times too bright.
     Uniform random(5);
     int near = 0, said_to_be_of_the_sky = 0;
     for (int lamp = 0; lamp < 250; ++lamp) {
@@ -224,8 +224,8 @@ Moments seen(const std::string& tree, const std::string& rest, std::uint32_t cou
     return radiance_along(world, scene, from, glm::vec3(0, 0, -0.5f) - from, count)[0];
 }
 
-// Checks that the ground reflects this much light within the statistical error, and that one per cent more would be
-// detected, two per cent in the short form.
+// Checks that the ground reflects this much light within the statistical error, and that one per cent more (two per
+// cent in the short form) would be detected.
 void check_light(const std::string& tree, double expected, double irradiance, double sky, int depth) {
     const Moments m = seen(tree, light(irradiance, sky, depth), samples_of(400000));
     CAPTURE(m.mean());

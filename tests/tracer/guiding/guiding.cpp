@@ -102,7 +102,7 @@ void check_guided(const Bsdf& bsdf, double significance) {
     CHECK(wrong_quotients == 0);
     CHECK(wrong_weights == 0);
     CHECK(rounded_away < 40);
-    // Both find the same albedo, and an error of 1 % would be detected, in the short form one of 2 %.
+    // Both find the same albedo, and an error of 1 % (2 % in the short form) would be detected.
     const auto p_value = [&](const Moments& other, double factor) {
         const double error = std::hypot(other.standard_error(), without.standard_error());
         return normal_two_sided((factor * other.mean() - without.mean()) / error);

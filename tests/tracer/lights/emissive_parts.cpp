@@ -17,7 +17,7 @@ using namespace phasetree::tracer;
 using namespace phasetree::tracer::tests;
 using phasetree::tests::Uniform;
 
-TEST_CASE("balls cover what glows, and are not many") {
+TEST_CASE("at most 128 balls cover everything that glows") {
     for (const char* const shape : {R"({"sphere": {"radius": 0.5}})",
                                     R"({"helix": {"radius": 0.3, "pitch": 0.2, "turns": 3, "wire_radius": 0.01}})"}) {
         CAPTURE(shape);
@@ -46,7 +46,7 @@ TEST_CASE("balls cover what glows, and are not many") {
     }
 }
 
-TEST_CASE("of many copies each has one ball, and of very many none") {
+TEST_CASE("each of many copies has one ball, and very many copies have none") {
     const auto scene_with = [](int copies) {
         std::string instances;
         for (int i = 0; i < copies; ++i)
@@ -72,7 +72,7 @@ TEST_CASE("of many copies each has one ball, and of very many none") {
     CHECK(scene_with(10'001).lights.emissive_parts().empty());
 }
 
-TEST_CASE("copies that do not shine do not count") {
+TEST_CASE("copies that do not emit light do not count") {
     std::string grass;
     for (int i = 0; i < 20'000; ++i)
         grass += R"({"of": "grass", "transform": {"translate": {"by": [)" + std::to_string(i) + ", 0, 1]}}}, ";
@@ -87,7 +87,7 @@ TEST_CASE("copies that do not shine do not count") {
     CHECK(scene.lights.emissive_parts().size() > 5);
 }
 
-TEST_CASE("each phase has balls of its own size, and a hidden one has none") {
+TEST_CASE("each phase has balls of its own size, and a phase that others replace completely has none") {
     const Scene scene = scene_of(
         R"("lava": {"glowing": {}}, "spark": {"glowing": {"radiance": 5}}, "core": {"glowing": {"radiance": 9}},
            "stone": {"diffuse": {"color": [0.5, 0.5, 0.5]}})",
@@ -108,13 +108,13 @@ TEST_CASE("each phase has balls of its own size, and a hidden one has none") {
     CHECK(core == 0);
 }
 
-TEST_CASE("a mesh of two triangles is divided, and collapsed triangles are no trouble") {
+TEST_CASE("a mesh of two triangles is subdivided, and degenerate triangles are harmless") {
     const Scene scene = scene_of(R"("glass": {"clear": {"ior": 1.5}})",
                                  R"({"set": {"phase": "glass", "of": {"sphere": {"radius": 1}}}})",
                                  R"("meshes": [{"floor": {"size": 40, "material": {"glowing": {}}}}], )" + dark);
     CHECK(scene.lights.emissive_parts().size() == 16);
     Uniform random(5);
-    // The box of a triangle with a longest edge of 20 m is 20 by 10.
+    // The box of a triangle whose longest edge is 20 m has sides of 20 m and 10 m.
     for (const EmissivePart& part : scene.lights.emissive_parts()) CHECK(part.bounding_sphere().radius < 11.2f);
     for (int i = 0; i < 2000; ++i) {
         const glm::vec3 p(40 * random() - 20, 40 * random() - 20, 0);

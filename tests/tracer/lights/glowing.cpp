@@ -47,11 +47,11 @@ const std::string flame = R"("ior": 1, "emission": [16, 8, 4], "absorption": [0.
 const glm::vec3 along_origin(-2, -2, 0.1f), along_direction(1.9f, 1.9f, -0.1f);
 const double significance_of_each = sidak(1e-4, 13);
 
-// Compares the radiance along that ray by all techniques with that by directions alone. The count and the planted
-// factor are those of the long form.
+// Compares the radiance along that ray by all techniques with that by directions alone. `count` and `planted_factor`
+// are those of the long form.
 void check_against_directions(Scene scene, std::uint32_t count, double planted_factor = 1.05) {
     count = samples_of(count);
-    // A half more, because rare bright paths make the estimated errors vary.
+    // 50 % more, because rare bright paths make the estimated errors vary.
     const double planted = phasetree::tests::long_tests() ? planted_factor : 1 + 1.5 * (detected(planted_factor) - 1);
     const World world(scene);
     const Moments all = radiance_along(world, scene, along_origin, along_direction, count, 1)[0];

@@ -174,8 +174,8 @@ TEST_CASE("a fringe of colours: the edge of a shadow under flat flint glass, at 
     for (const bool is_spectral : {false, true}) {
         scene.settings.spectral = is_spectral;
         const World world(scene);
-        double away =
-            1;  // the smallest p-value of all points and colours, for an edge one per cent away; two in the short form
+        // The smallest p-value of all points and colours, for an edge that is 1 % away (2 % in the short form).
+        double away = 1;
         for (const float below : {0.5f, 0.605f, 0.612f, 0.62f, 0.7f}) {
             const auto expected_at = [&](double edge) {
                 return mean_over_wavelengths([&](const Wavelengths& only) {
@@ -224,7 +224,7 @@ TEST_CASE("photons of one wavelength: the ground of a pool of flint glass under 
     PathCounters counters;
     const glm::vec3 from(-0.5f, -0.5f, 0.7f);
     const Ray ray{from, glm::normalize(-from), world.geometry().label(from), {}};
-    // The short form takes half of the passes.
+    // The short form runs half of the passes.
     const bool is_long = phasetree::tests::long_tests();
     for (int pass = 0; pass < (is_long ? 1600 : 800); ++pass) {
         const auto map = caustics.photons(pass, counters, [] { return false; });

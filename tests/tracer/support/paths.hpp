@@ -19,12 +19,12 @@ using phasetree::tests::mean_p_value;
 using phasetree::tests::Moments;
 using phasetree::tests::sidak;
 
-// A comparison takes `count` samples in the long form. The short form takes a quarter of them: its standard error is
-// twice as large, and so is the error that it must detect.
+// The number of samples of a comparison that takes `count` in the long form. The short form takes a quarter: its
+// standard error is twice as large, and so is the error that it must detect.
 inline std::uint32_t samples_of(std::uint32_t count) {
     return phasetree::tests::long_tests() ? count : count / 4;
 }
-// The factor that the form detects, if the long form detects this one.
+// The planted factor that this form must detect, given that of the long form.
 inline double detected(double factor) {
     return phasetree::tests::long_tests() ? factor : 1 + 2 * (factor - 1);
 }

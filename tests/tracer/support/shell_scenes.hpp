@@ -27,8 +27,8 @@ inline void check_floor(const std::string& phases, const std::string& tree, cons
 }
 
 // Checks that a picture of the floor has the same mean with photons as without. `planted_factor` is an error that 128
-// samples per pixel detect. The short form takes an eighth of these and detects three times that error; the long form
-// takes 2048 and detects a quarter of it.
+// samples per pixel detect. The short form takes an eighth of these samples and detects three times that error; the
+// long form takes 2048 and detects a quarter of it.
 inline void check_picture_of_floor(const std::string& phases, const std::string& tree, const std::string& lights,
                                    double planted_factor) {
     const auto made = [&](bool caustics) {

@@ -43,8 +43,8 @@ Scene small(phasetree::Document document) {
 void check_instruction_sets(const Scene& scene) {
     int compared = 0;
     const std::vector<glm::vec3> expected = picture(scene, "");
-    // The default is the best one of this processor. The short form compares it with the oldest, and with the one of
-    // most processors.
+    // The default is the best instruction set of this processor. The short form compares it with the oldest one and
+    // with AVX2, which most processors have.
     std::vector<std::string> sets{"sse2", "avx2"};
     if (phasetree::tests::long_tests()) sets.insert(sets.end(), {"sse4.2", "avx", "avx512"});
     for (const std::string& name : sets) {

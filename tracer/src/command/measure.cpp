@@ -144,9 +144,9 @@ void add_measure(CLI::App& app, Run& run) {
         "of inertia and bounding boxes are guaranteed to lie in their intervals. Areas are statistical\n"
         "estimates with a standard error.\n"
         "\n"
-        "Lengths, areas and volumes are printed in the scene's unit, masses in kilograms. JSON has metres\n"
-        "and kilograms, whatever the unit of the scene is. With several objects, their union is measured;\n"
-        "--object chooses one. Ctrl-C prints what is known so far.\n"
+        "Lengths, areas and volumes are printed in the scene's unit, masses in kilograms. JSON always has\n"
+        "metres and kilograms. With several objects, their union is measured; --object chooses one.\n"
+        "Ctrl-C prints what is known so far.\n"
         "\n"
         "The whole scene file is checked, but it may lack a camera and lights, and the files of\n"
         "lights, meshes, textures and media are not opened.");

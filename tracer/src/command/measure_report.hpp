@@ -11,7 +11,7 @@
 
 namespace phasetree::tracer {
 
-// All numbers are in SI units, as in the JSON; the table has the scene's unit of length.
+// All numbers are in SI units, as in the JSON. The table converts them to the scene's unit of length.
 struct MeasureReport {
     std::string scene;
     LengthUnit unit;

@@ -50,7 +50,7 @@ class KeptDisplays {
     std::map<float, DisplayTransform> displays_;  // by exposure
 };
 
-// What is kept from reading to reading.
+// What one reading keeps for the next.
 struct KeptForReading {
     std::shared_ptr<KeptDisplays> displays;
     std::shared_ptr<KeptNodes> nodes = std::make_shared<KeptNodes>();
@@ -108,7 +108,7 @@ std::optional<view::TimeSpan> span_of_keys(const Document& document) {
     return first < last ? std::optional(view::TimeSpan{first, last}) : std::nullopt;
 }
 
-// The parts of a text that are hidden, though they were named in another text.
+// The desired hidden parts, as pointers into the text of the file. The request may refer to an earlier text.
 view::HiddenParts hidden_in(const ViewedFile& file, const Document& in_file, const view::HiddenParts& desired) {
     if (desired.pointers.empty()) return {};
     view::HiddenParts hidden{desired.pointers, std::make_shared<const std::string>(in_file.text())};
@@ -231,7 +231,7 @@ view::ReadScene ViewedFile::reader(studio::EditedDocument& document) const {
         const auto state = document.state();
         if (state->unreadable) throw *state->unreadable;
         if (!state->document) throw state->error.value();
-        // If the page replaced numbers or hid parts, these may be what is wrong, so the text's check is not recorded.
+        // If the page replaced numbers or hid parts, an error may come from these, so it is not recorded for the text.
         const bool is_of_text = desired.numbers.empty() && desired.hidden.pointers.empty();
         if (!desired.hidden.pointers.empty() && !state->is_checked) check_text(file, document, *state);
         try {

@@ -22,7 +22,7 @@ KeptImages* KeptImages::of_thread() {
     return images_of_thread;
 }
 
-// Of a file that cannot be read, the state is arbitrary: loading it throws.
+// If the file cannot be read, its state is arbitrary, because loading it throws.
 KeptImages::State KeptImages::state_of(const std::filesystem::path& file) {
     std::error_code error;
     return {std::filesystem::last_write_time(file, error), std::filesystem::file_size(file, error)};

@@ -50,8 +50,8 @@ std::string in_xml(std::string_view text) {
 
 constexpr int materials_id = 1, object_id = 2;
 
-// Writes one mesh with the surfaces of all parts, and collects what PrusaSlicer needs to tell them apart. It would load
-// the components of an object as separate objects.
+// Writes one mesh with the surfaces of all parts, and collects what PrusaSlicer needs to tell them apart. Components
+// are not used, because PrusaSlicer would load them as separate objects.
 class Writer {
   public:
     explicit Writer(const MeshedObject& object) : object_(object), phases_(object.phases()) {
@@ -95,7 +95,7 @@ class Writer {
                            "<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\" pid=\"{}\" p1=\"{}\"/>\n", t[0] + vertex_count_,
                            t[1] + vertex_count_, t[2] + vertex_count_, materials_id, part_count_);
         if (mesh.triangles.empty()) return;
-        // Each part has an extruder of its own, numbered from 1.
+        // Each part has its own extruder, numbered from 1.
         fmt::format_to(std::back_inserter(parts_),
                        "<volume firstid=\"{}\" lastid=\"{}\">\n"
                        "<metadata type=\"volume\" key=\"name\" value=\"{}\"/>\n"

@@ -78,7 +78,7 @@ class PhaseFinder {
 
     // φ at the centres of a box's octants.
     BatchOfFloats distances(const PointBatch& at, Phase phase) {
-        poll_preparation();  // in an object of many copies, each evaluation takes milliseconds
+        poll_preparation();  // if the object has many copies, each evaluation takes milliseconds
         const auto& outputs = evaluator_.program().outputs;
         const auto output = std::ranges::find(outputs, phase, &Output::phase);
         evaluator_.evaluate(at.x, at.y, at.z, values_, Evaluator::thread_workspace());

@@ -78,10 +78,10 @@ class SharedSurfaces {
         bool operator==(const MetalLosses&) const = default;
     };
 
-    // The dielectrics of this scene. Which side of an interface is asked for first decides which of its two surfaces is
-    // computed and which is the other one reversed, and so their last bits.
+    // The dielectrics of this scene. The side of an interface that is requested first is computed, and the other one is
+    // made by reversing it, so the order decides their last bits.
     Made<Dielectric, DielectricSurface> dielectrics_;
-    Made<Dielectric, DielectricSurface> computed_dielectrics_;  // also of earlier scenes; none is a reversed one
+    Made<Dielectric, DielectricSurface> computed_dielectrics_;  // of earlier scenes too; none is reversed
     Made<Conductor, ConductorSurface> conductors_;
     Made<MetalOfReflectance, ConductorSurface> metals_of_reflectance_;
     Made<MetalLosses, LossTables> metal_losses_;

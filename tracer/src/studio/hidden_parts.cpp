@@ -41,7 +41,7 @@ class Hiding {
   private:
     static std::string parent_of(const std::string& pointer) { return pointer.substr(0, pointer.rfind('/')); }
 
-    // Leaves out what is hidden inside an entry, and returns whether the entry is to be left out itself.
+    // Leaves out the hidden parts of an entry, and returns whether the entry itself must be left out.
     bool look(const OutlineEntry& entry) {
         if (hidden_.contains(entry.pointer)) return true;
         if (entry.kind == "reference") return entry.label && is_shape_gone(*entry.label);
@@ -188,11 +188,11 @@ std::vector<std::string> pointers_after(const Document& before, const Document& 
         else if (span->begin >= old.size() - end)
             offset = span->begin + now.size() - old.size();
         else
-            offset = only_place_of(span->of(old), now);  // it may have been moved
+            offset = only_place_of(span->of(old), now);  // the value may have moved
         const bool contains_change = span->begin < same && span->end > old.size() - end;
         if (!offset && contains_change) offset = span->begin;
         if (!offset && has_same_structure(before.root(), after.root())) {
-            result.push_back(pointer);  // such as after renaming a phase
+            result.push_back(pointer);  // for example, after a phase was renamed
             continue;
         }
         if (!offset) continue;

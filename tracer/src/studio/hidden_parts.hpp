@@ -12,13 +12,13 @@ namespace phasetree::tracer::studio {
 /// The text without some nodes of the tree, reusable shapes, meshes and lights, given by their JSON pointers.
 /// Everything else stays at the same offset. Pointers that refer to nothing are ignored.
 ///
-/// An item of a list is left out. If nothing of a list remains, or a node lacks an operand that is not in a list, the
-/// node is replaced by its main operand, such as the field from which another one is subtracted. If that is missing,
-/// the node is left out, too. Throws SceneError if nothing of the tree remains.
+/// Hidden items are removed from their lists. If a list becomes empty, or a node loses an operand that is not in a
+/// list, the node is replaced by its main operand, such as the field from which another one is subtracted. If that is
+/// hidden, the node is removed, too. Throws SceneError if nothing of the tree remains.
 std::string text_without(const Document& document, const Vocabulary& vocabulary,
                          const std::vector<std::string>& hidden);
 
-/// Where values of a text are after the text has changed. Values that cannot be found are dropped.
+/// Returns the pointers of the same values after the text has changed. Values that cannot be found are dropped.
 std::vector<std::string> pointers_after(const Document& before, const Document& after,
                                         const std::vector<std::string>& pointers);
 

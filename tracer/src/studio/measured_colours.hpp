@@ -13,7 +13,7 @@ struct MeasuredColour {
     glm::vec3 reflectance{0.0f};  ///< linear Rec.709
 };
 
-/// Of metals, the reflectance at normal incidence; of scattering media, the diffuse reflectance of a thick layer.
+/// For metals, the reflectance at normal incidence; for scattering media, the diffuse reflectance of a thick layer.
 std::vector<MeasuredColour> measured_colours();
 
 }  // namespace phasetree::tracer::studio

@@ -49,7 +49,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-// Whether a path without links is inside a folder without links.
+// Whether a canonical path is inside a canonical folder.
 bool is_inside(const fs::path& path, const fs::path& folder) {
     const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
     return end == folder.end();
@@ -66,7 +66,7 @@ SceneFiles files_for(const fs::path& scene, std::string_view type, std::string_v
     SceneFiles result;
     if (error) return result;
     std::size_t visited = 0;
-    constexpr auto options = fs::directory_options::skip_permission_denied;  // and folders behind links
+    constexpr auto options = fs::directory_options::skip_permission_denied;  // does not follow links to folders
     for (fs::recursive_directory_iterator at(folder, options, error), end; !error && at != end; at.increment(error)) {
         const std::string name = at->path().filename().string();
         if (++visited > SceneFiles::most_visited || result.names.size() == SceneFiles::most) {

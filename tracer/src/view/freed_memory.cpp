@@ -13,7 +13,7 @@ namespace phasetree::tracer::view {
 
 namespace {
 
-// Bytes of memory in use by the process; 0 if the system does not say.
+// The resident memory of the process in bytes; 0 if the system does not report it.
 std::size_t resident_bytes() {
     std::ifstream statm("/proc/self/statm");
     std::size_t all = 0, resident = 0;

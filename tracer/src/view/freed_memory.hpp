@@ -12,9 +12,9 @@ namespace phasetree::tracer::view {
 /// scene after each edit, every thread would keep as much as its largest scene needed. Use one object per process.
 class FreedMemory {
   public:
-    /// Call this often, with a number that changes whenever there was work. Every two seconds, if there was any, and
-    /// the process is larger than it was at its smallest by more than `slack`, this returns what is free. Smaller
-    /// amounts stay, because memory that is returned has to be fetched again.
+    /// Call this often, with a number that changes whenever there was work. At most every two seconds, after new work,
+    /// this returns free memory to the system if the process has grown by more than `slack` since it was smallest.
+    /// Smaller amounts stay, because fetching returned memory again takes time.
     void poll(std::uint64_t work);
 
     static constexpr std::size_t slack = std::size_t{64} << 20;

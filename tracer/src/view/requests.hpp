@@ -22,8 +22,8 @@ glm::vec2 read_place(const std::string& text, const Shown& shown);
 /// {"pointers": ["/tree/over/1"], "phases": ["glass"]}. Throws SceneError.
 SelectedParts read_selected(const std::string& text);
 
-/// The answer as one line. The pixels of a mask are written as the lengths of runs, row by row: of pixels that are not
-/// selected, then of pixels that are, and so on.
+/// The answer as one line. The pixels of a mask are written row by row as lengths of runs, alternating between pixels
+/// that are not selected and pixels that are, beginning with the former.
 std::string written(const Shown& shown);
 std::string written(const Probed& probed);
 std::string written(const SelectionMask& mask);

@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int block_size = 8;
 constexpr int most_surfaces = 64;  // along one ray
 
-// What is selected, as the surfaces of a picture tell it.
+// Decides which surfaces of a picture belong to the selection.
 class Selected {
   public:
     Selected(const Picture& picture, const SelectedParts& parts) : viewed_(*picture.viewed) {
@@ -36,7 +36,7 @@ class Selected {
                 spans_.push_back(studio::span_of(*viewed_.file, value));
                 if (const auto name = mesh_name(pointer)) mesh_names_.insert(*name);
             } catch (const std::exception&) {
-                // The picture is of another text than the outline of the page.
+                // The picture shows another text than the page.
             }
     }
 
@@ -51,7 +51,7 @@ class Selected {
     }
 
   private:
-    // A part of a glTF file has the name of the file's mesh before its own.
+    // The name of a part of a glTF file begins with the name of the file's mesh.
     bool is_selected_mesh(std::string_view name) const {
         return std::ranges::any_of(mesh_names_, [&](const std::string& selected) {
             if (!name.starts_with(selected)) return false;
@@ -114,7 +114,7 @@ class Pixels {
         if (state == State::unknown) state = look(glm::vec2(x, y) + 0.5f) ? State::selected : State::other;
         return state == State::selected;
     }
-    // Decides what is unknown.
+    // Sets a pixel that is still unknown.
     void fill(int x, int y, bool is_selected) {
         State& state = known_[index(x, y)];
         if (state == State::unknown) state = is_selected ? State::selected : State::other;
@@ -132,7 +132,7 @@ class Pixels {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(x);
     }
     bool look(const glm::vec2& pixel) const {
-        if (Clock::now() > end_) throw ModelError("finding where the selection is in the picture takes too long");
+        if (Clock::now() > end_) throw ModelError("finding the selection in the picture takes too long");
         // The middle of the unit square is the middle of the lens.
         const CameraRay through = camera_.generate(pixel * scale_, glm::vec2(0.5f));
         Ray ray{through.origin, through.direction, geometry_.label(through.origin), {}};
@@ -158,8 +158,8 @@ class Pixels {
     std::vector<State> known_;
 };
 
-// Decides the corners of blocks first, and all pixels of a block if its corners differ, or if the border of
-// the selection enters it from a block beside it.
+// Decides the corners of blocks first, and all pixels of a block only if its corners differ or the border of the
+// selection enters it from a neighbour.
 std::vector<bool> found(Pixels& pixels, glm::ivec2 size) {
     const glm::ivec2 blocks = (size + block_size - 1) / block_size;
     const auto first = [](int block) { return block * block_size; };

@@ -1,4 +1,4 @@
-// Where a picture shows what is selected in the outline.
+// Finds the pixels of a picture that show the selection.
 #pragma once
 
 #include <chrono>
@@ -21,11 +21,11 @@ struct SelectionMask {
     std::vector<bool> is_selected;  ///< row by row
 };
 
-/// A pixel is selected if the straight line through it reaches a surface of a selected part before anything opaque. The
+/// A pixel is selected if a straight ray through it reaches a surface of a selected part before anything opaque. The
 /// surface of a node is where one of the primitives below the node decides the label. Clear surfaces do not hide what
 /// is behind them, and refraction is ignored, as for the handles.
 ///
-/// The mask has at most `most_pixels_of_mask` on its longer side. Parts of fewer than 8×8 of its pixels may be missed.
+/// The mask's longer side has at most `most_pixels_of_mask` pixels. Parts smaller than 8×8 of them may be missed.
 /// Throws ModelError if it takes longer than `longest`.
 SelectionMask selection_mask(const Picture& picture, const SelectedParts& parts,
                              std::chrono::milliseconds longest = std::chrono::seconds(3));

@@ -169,7 +169,7 @@ class Answers {
         } catch (const SceneError& e) {
             refuse(response, 400, e.what());
         } catch (const ModelError& e) {
-            // Finding the selection took too long, which is no failure to report.
+            // Finding the selection took too long, which is not an error.
             if (name == "selected") return response.set_content("null", json);
             refuse(response, 409, e.what());
         } catch (const OutputError& e) {

@@ -149,7 +149,7 @@ void Session::build(const DesiredState& desired) {
         const bool is_over = Clock::now() - begun > first_cells_deadline;
         return is_of_another_reading(desired) || (is_over && is_of_another_object(desired));
     };
-    // The program of the object is recorded before cells are built.
+    // Building cells first records the object's program, which polls this watch.
     const PreparationWatch watch({.cancelled = cancelled, .progress = {}});
     WorldOptions options{.quality = options_.quality,
                          .is_first_look = true,

@@ -74,7 +74,7 @@ bool StudioAnswers::get(std::string_view name, Known known, std::chrono::millise
 void StudioAnswers::files(const std::string& type, const std::string& kind, httplib::Response& response) const {
     const studio::SceneFiles found = studio::files_for(document_.file(), type, kind);
     const nlohmann::json json{{"names", found.names}, {"has_more", found.has_more}};
-    // Names of files may be any bytes.
+    // File names may contain any bytes, not only UTF-8.
     response.set_content(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), type_of_answers);
 }
 

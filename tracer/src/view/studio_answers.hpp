@@ -26,7 +26,7 @@ class StudioAnswers {
     };
     /// Returns false if there is no such page.
     bool get(std::string_view name, Known known, std::chrono::milliseconds timeout, httplib::Response& response) const;
-    /// The files beside the scene that a kind of a type can read.
+    /// The files beside the scene that a kind of node, light, … can read; see studio::files_for.
     void files(const std::string& type, const std::string& kind, httplib::Response& response) const;
     void post(std::string_view name, const std::string& body, httplib::Response& response) const;
 

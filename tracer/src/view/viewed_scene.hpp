@@ -25,7 +25,7 @@ struct TimeSpan {
 /// Parts of the scene that are left out (studio/hidden_parts.hpp).
 struct HiddenParts {
     std::vector<std::string> pointers{};
-    std::shared_ptr<const std::string> text{};  ///< that the pointers refer to; null for the present one
+    std::shared_ptr<const std::string> text{};  ///< that the pointers refer to; null: the current one
     bool operator==(const HiddenParts&) const = default;
 };
 

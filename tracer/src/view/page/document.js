@@ -69,7 +69,7 @@ export class SceneDocument extends EventTarget {
   get entries() {
     return [...this.#entries.values()];
   }
-  // The unit of lengths, such as "cm"; empty if the scene has none.
+  // The scene's unit of length, such as "cm"; empty if it declares none.
   get unit() {
     const text = textAt(this.text, "/unit");
     return text?.startsWith('"') ? JSON.parse(text) : "";

@@ -1,4 +1,4 @@
-// The name of a file: typed, or chosen from those beside the scene that the parameter can read.
+// A file name: typed, or chosen from the files beside the scene that the parameter can read.
 import {make} from "./dom.js";
 import {icon} from "./icons.js";
 import {openMenu} from "./menu.js";
@@ -10,7 +10,7 @@ export class FileField {
   #changed;
   #of;
 
-  // `of` is what the file is for: {type, kind} of the entry.
+  // `of()` returns {type, kind} of the entry that the file belongs to.
   constructor(label, of, changed) {
     this.#changed = changed;
     this.#of = of;
@@ -33,8 +33,8 @@ export class FileField {
     const items = told.names.slice(0, most).map((name) => ({text: name, isChosen: name === this.input.value, run: () => this.#choose(name)}));
     const say = (text) => items.push({text, isOff: true, run: () => {}});
     if (told.why) say(told.why);
-    else if (items.length === 0) say("No such files in the scene's folder or the folders in it");
-    else if (told.has_more || told.names.length > most) say("There are more. Type the name.");
+    else if (items.length === 0) say("No matching files in the scene's folder or its subfolders");
+    else if (told.has_more || told.names.length > most) say("There are more files. Type the name.");
     openMenu(this.button, items, {role: "listbox", label: this.label});
   }
   #choose(name) {

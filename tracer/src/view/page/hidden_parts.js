@@ -1,4 +1,4 @@
-// Nodes, surroundings and lights that the picture leaves out, while the file keeps them. The server has their pointers.
+// Nodes, meshes and lights that the picture leaves out while the file keeps them. The server stores their pointers.
 import {isNode} from "./structure.js";
 
 let pointers = new Set();
@@ -7,7 +7,7 @@ export const hiddenParts = {
   get pointers() {
     return [...pointers];
   },
-  // `shown` are those of the state that the server sends. Whether they have changed.
+  // Takes the pointers from the server's state, and returns whether they have changed.
   take(shown) {
     if (shown.join("\n") === this.pointers.join("\n")) return false;
     pointers = new Set(shown);

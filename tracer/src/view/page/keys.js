@@ -6,7 +6,7 @@ const table = [
   ["Scene", [["Shift+A", "Add"], ["W", "Wrap the selection"], ["R", "Replace"], ["Ctrl+D", "Duplicate"], ["Delete", "Delete"], ["Ctrl+G", "Group"],
     ["Ctrl+Shift+G", "Remove the wrapper"], ["F2", "Rename"], ["Alt+↑ Alt+↓", "Move up or down in its list"], ["Ctrl+Z", "Undo"],
     ["Ctrl+Shift+Z", "Redo"], ["Ctrl+E", "Show the text"], ["F", "Look at the selection"], ["G", "Drag surfaces"],
-    ["O", "Outline the selection in the picture"], ["H", "Hide the selection in the picture, or show it"], ["Alt+H", "Show everything"]]],
+    ["O", "Outline the selection in the picture"], ["H", "Hide or show the selection in the picture"], ["Alt+H", "Show everything"]]],
   ["Picture", [["Drag", "Rotate"], ["Shift+drag", "Move"], ["Scroll", "Zoom"], ["Click", "Select"], ["Alt+drag", "Drag the surface"], ["Alt+click", "Inspect the point"],
     ["Ctrl+drag", "Move the cut"], ["← ↑ → ↓", "Rotate; with Shift, move"], ["+ −", "Zoom"], ["[ ]", "Move the cut"], ["Enter", "Inspect the centre"],
     ["0", "Reset the camera"]]],

@@ -125,7 +125,7 @@ export class Outliner {
     row.addEventListener("pointerdown", (event) => this.#grab(now(), row, event));
     return row;
   }
-  // Hides something in the picture, and shows it again.
+  // A button that hides something in the picture or shows it again.
   #eye(what, isOff, hide) {
     const text = `${isOff ? "Show" : "Hide"} ${what}`;
     return make("button", {

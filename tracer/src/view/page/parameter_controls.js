@@ -50,7 +50,7 @@ function sortOfList(type, value) {
 
 // What a field of numbers needs to know: limits, unit, and the usual size of a value.
 function limitsOf(row) {
-  const {low, high, low_open: lowIsOpen, unit, control} = row.spec; // lengths are in m, whatever the scene's unit is
+  const {low, high, low_open: lowIsOpen, unit, control} = row.spec; // the catalogue gives lengths in m, whatever the scene's unit is
   const hasRange = Number.isFinite(low) && Number.isFinite(high) && high - low < 1e3;
   const scale = control === "angle" ? 90 : hasRange ? high - low : control === "length" || unit === "m" ? row.context.radius() : 1;
   return {low, high, lowIsOpen, unit: row.unit, isInteger: control === "integer", scale};

@@ -62,7 +62,7 @@ export class ParameterRow {
     const said = this.fallback === null ? "" : `Default: ${written(this.fallback)}.`;
     return [plainText(help ?? ""), limits ? `Limits: ${limits}${unit ? ` ${unit}` : ""}.` : "", said, required ? "Required." : ""].filter(Boolean).join(" ");
   }
-  // As it is shown: lengths are in the scene's unit, if it has one.
+  // The unit to show: for lengths, the scene's unit, if it has one.
   get unit() {
     return this.spec.unit === "m" ? this.context.unit() : this.spec.unit;
   }

@@ -1,14 +1,14 @@
-// The outline of the selection over the picture. The server says which pixels show it (POST selected), and the border of
-// these pixels is drawn. While the picture changes, the old outline is faint, and a new one is asked for at rest.
+// The outline of the selection over the picture. The server reports which pixels show it (POST selected), and their
+// border is drawn here. The old outline is faint while the picture changes; then a new one is requested.
 import {makeSvg} from "./dom.js";
 import {isWithin} from "./pointer.js";
 import {askSelected} from "./server.js";
 import {isNode} from "./structure.js";
 
-const rest = 120; // milliseconds without a new picture after which the server is asked
+const rest = 120; // milliseconds from the last change to the request
 
-// What to ask for. A phase that is in nothing else belongs to an object as a whole, even where its surface is that of
-// another node, such as the inside of a glass for the water in it.
+// What to request. All surfaces of a phase that occurs only in one object belong to this object, even if another node
+// determines them, as the inside of a glass does for the water in it.
 export function partsOf(entries, all) {
   const pointers = [], phases = [];
   for (const entry of entries) {
@@ -25,11 +25,11 @@ export function partsOf(entries, all) {
   return {pointers: [...new Set(pointers)], phases: [...new Set(phases)]};
 }
 
-// The closed borders of the pixels that are true, as lists of points. Each point is the middle of a pixel's side, so
-// that slanted borders are not stairs.
+// The closed borders of the selected pixels, as lists of points. Each point is the middle of a pixel's side, so slanted
+// borders have no stairs.
 export function borders(isIn, width, height) {
   const at = (x, y) => x >= 0 && y >= 0 && x < width && y < height && isIn[y * width + x];
-  // Directed sides, with what is selected on their right, by the corner where they begin.
+  // Directed sides by the corner where they begin. Selected pixels are on their right.
   const sides = new Map();
   const add = (x, y, dx, dy) => {
     const key = y * (width + 1) + x;
@@ -75,7 +75,7 @@ export class SelectionOutline {
   #scene;
   #selection;
   #parts = "";
-  #picture = null; // what the last picture shows, as a string
+  #picture = null; // identifies what the last picture shows
   #timer = null;
   #asked = 0;
   #isAsking = false;
@@ -92,7 +92,7 @@ export class SelectionOutline {
   }
   // Called with each state of the server that has a new picture.
   pictureChanged(state) {
-    // A first picture of something else has a time of its own.
+    // The first picture after a change has another time.
     const picture = JSON.stringify([state.seconds_to_picture, state.camera, state.width, state.height]);
     if (picture === this.#picture) return;
     this.#picture = picture;
@@ -129,7 +129,7 @@ export class SelectionOutline {
     try {
       mask = await askSelected(parts);
     } catch {
-      // There is no picture yet, or it takes too long. The selection is still marked in the outline.
+      // There is no picture yet, or finding the selection takes too long. The scene's outline still marks it.
     }
     if (asked !== this.#asked) return;
     this.#isAsking = false;

@@ -1,4 +1,4 @@
-// Fits the picture into the space for it, and what is drawn over the picture.
+// Fits the picture and the overlays drawn over it into the available space.
 
 const most = 2.5; // times as large as its pixels
 

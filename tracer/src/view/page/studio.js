@@ -131,7 +131,7 @@ export class Studio {
     if (parts.length === 0) return;
     const isHidden = !parts.every(hiddenParts.has);
     this.view.hideParts(parts.map(({pointer}) => pointer), isHidden);
-    this.announcer.say(isHidden ? "Hidden in the picture; the file keeps it. Alt+H shows everything." : "Shown again");
+    this.announcer.say(isHidden ? "Hidden in the picture, not in the file. Alt+H shows everything." : "Shown again");
   }
   #showAll() {
     if (hiddenParts.pointers.length > 0) this.view.hideParts(hiddenParts.pointers, false);
@@ -173,7 +173,7 @@ export class Studio {
       const {saved, error} = this.scene;
       element("saved").textContent = !saved ? "Not saved" : error ? "Invalid file" : "Saved";
       element("saved").classList.toggle("wrong", saved && error !== null);
-      element("saved").title = saved && error ? `The file is saved, but it has an error${error.line ? ` in line ${error.line}` : ""}: ${error.message}` : "";
+      element("saved").title = saved && error ? `The file is saved, but it has an error${error.line ? ` on line ${error.line}` : ""}: ${error.message}` : "";
       element("saved").classList.toggle("hidden-text", !this.scene.saved);
       element("save-file").hidden = this.scene.saved;
       element("save-file").title = this.scene.saveError ?? "Save the scene file";

@@ -66,7 +66,7 @@ struct Face {
     }
 };
 /// Layout: one end; the vector to the other end; 1 over its squared length; the normal; the largest angle between it
-/// and the normals of the two faces; and three numbers that limit the directions of the region: `bend`, the square of a
+/// and the normals of the two faces; and three numbers that limit the directions of the region: `bend`, a squared
 /// cosine, and a length.
 ///
 /// An edge is nearest only to points in directions between the normals of its two faces, on the outside if it is
@@ -74,7 +74,7 @@ struct Face {
 /// the angle β between the edge's normal and those of the faces, the height over the edge, h = normal · away, is then
 /// at least cos β · |away|, or at most the negative of that.
 ///
-/// Beside the end of a spike, another piece is nearest, but by so little that an edge may win by rounding, with a
+/// Beside the end of a spike, another piece is nearest, but by so little that rounding may select an edge, with a
 /// height of the wrong sign. So the region is limited to ±h ≥ f cos β · |away| − s, where s bounds the rounding errors:
 ///
 /// * Bent edges, with an angle of at least 30° between the normals of their faces: f is ½.
@@ -84,10 +84,10 @@ struct Face {
 ///   The sign is that of h.
 ///   The limit excludes points beside the edge, where the sign of h is that of its rounding error.
 ///
-/// ±h is computed as |h| + bend · h, which is twice as much for bent edges, like the stored numbers. Every point to
-/// which the edge is nearest stays in the region, because s exceeds the errors in proportion to the edge's length, and
-/// (1 − f) cos β those in proportion to |away|. Directions are not limited (by a cosine of 0) for open edges, for edges
-/// of faces without area, and where the surface folds back.
+/// ±h is computed as |h| + bend · h. For bent edges, that is 2 max(±h, 0); their stored numbers are doubled. Every
+/// point to which the edge is nearest stays in the region, because s exceeds the errors proportional to the edge's
+/// length, and (1 − f) cos β those proportional to |away|. A cosine of 0 means that directions are not limited: at open
+/// edges, edges of faces without area, and where the surface folds back.
 struct Edge {
     static constexpr PieceKind kind = PieceKind::edge;
     static constexpr std::size_t end = 0, vector = 3, inverse = 6, normal = 7, largest_angle = 10, bend = 11,
