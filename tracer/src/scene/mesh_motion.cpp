@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "parameters/world_limits.hpp"
-#include "phasetree/model/error.hpp"
+#include "phasetree/model/handle.hpp"
 
 namespace phasetree::tracer {
 
