@@ -196,12 +196,12 @@ void compare_examples(GlDialect dialect, const GlslOptions& options, std::size_t
 }
 
 const bool is_long = long_tests();
-const std::size_t some = is_long ? 1 : 25;
+const std::size_t some = is_long ? 1 : 40;
 
 }  // namespace
 
 TEST_CASE("nodes' examples have the same values, labels and gradients in GLSL ES 3.00") {
-    compare_examples(GlDialect::es_300, {}, is_long ? 1 : 3);
+    compare_examples(GlDialect::es_300, {}, is_long ? 1 : 5);
 }
 
 TEST_CASE("examples are the same by a table of instructions, and by programs of boxes") {

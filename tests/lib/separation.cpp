@@ -256,7 +256,7 @@ TEST_CASE("triangles of the gallery cross nowhere") {
         const glm::vec3 extent = tracer->bounds().extent();
         const float longest = std::max({extent.x, extent.y, extent.z});
         for (const float cubes : {19.f, 41.f, 67.f}) {
-            if (!long_tests() && cubes > 50) continue;
+            if (!long_tests() && cubes > 30) continue;
             CAPTURE(cubes);
             check(meshed(*tracer, longest / cubes));
         }
