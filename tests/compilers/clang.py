@@ -3,7 +3,7 @@
     python3 clang.py BUILD [TARGET…]
 
 BUILD has a compile_commands.json. The short form checks the kernels of the oldest and the newest instruction set, the
-fuzzers, all headers, up to ten sources that changed since HEAD~1, and every source that names a view of ranges, because
+fuzzers, all headers, up to four sources that changed since HEAD~1, and every source that names a view of ranges, because
 Clang 14 cannot compile most views of libstdc++. With PHASETREE_LONG_TESTS, it checks all sources; with TARGETs, all
 sources of these targets.
 
@@ -29,7 +29,7 @@ SKIPPED = 77
 # Options are GCC's; lib/cmake/compile_options.cmake has the second for builds with Clang.
 FOR_CLANG = ["-Wno-unknown-warning-option", "-Wno-bitwise-instead-of-logical"]
 SHORT_TARGETS = {"fuzz"}
-MOST_CHANGED = 10
+MOST_CHANGED = 4
 # The kernels of the instruction sets between these two differ only in their options.
 KERNELS = tuple(f"/lib/src/kernel/{name}.cpp" for name in ("baseline", "avx512", "precise_baseline", "precise_avx512", "faces"))
 # Views, and the algorithms that return one.

@@ -57,7 +57,7 @@ endforeach()
 # With CMake. The sanitizers of this build, if any, must also be in those programs.
 set(examples "${prefix}/share/doc/phasetree/examples")
 run(${CMAKE_COMMAND} -G "${GENERATOR}" -S "${examples}" -B "${WORK}/examples" -DCMAKE_PREFIX_PATH=${prefix} -DEMBREE=${MAJOR}
-    -DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS=-Wall -Wextra -Werror ${FLAGS}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
+    -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_C_FLAGS=-Wall -Wextra -Werror ${FLAGS}" "-DCMAKE_CXX_FLAGS=-g0 ${FLAGS}")
 run(${CMAKE_COMMAND} --build "${WORK}/examples" --parallel 2)
 run("${WORK}/examples/phases" "${prefix}/share/phasetree/scenes/hourglass.json" 0 0.01 10 0 0 -1)
 expect("${output}" "vacuum -> wood" "vacuum -> sand" "wood -> vacuum")
@@ -76,7 +76,7 @@ foreach(name renderer stock)
 endforeach()
 # The tutorial's renderer is a project of its own.
 run(${CMAKE_COMMAND} -G "${GENERATOR}" -S "${examples}/small_renderer" -B "${WORK}/small_renderer" -DCMAKE_PREFIX_PATH=${prefix}
-    -DEMBREE=${MAJOR} -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror ${FLAGS}")
+    -DEMBREE=${MAJOR} -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=-g0 -Wall -Wextra -Werror ${FLAGS}")
 run(${CMAKE_COMMAND} --build "${WORK}/small_renderer")
 run("${WORK}/small_renderer/small_renderer" "${prefix}/share/phasetree/scenes/hourglass.json" "${WORK}/small_renderer.ppm")
 file(SIZE "${WORK}/small_renderer.ppm" size)

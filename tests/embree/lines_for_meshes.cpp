@@ -41,7 +41,7 @@ std::map<std::pair<int, int>, int> interfaces_of(const PhaseMesh& mesh) {
 }  // namespace
 
 TEST_CASE("a mesh by cells is the one by the whole program") {
-    const float spacings = tests::long_tests() ? 60 : 24;
+    const float spacings = tests::long_tests() ? 60 : 18;
     std::size_t vertices = 0, differ = 0;
     int triangles = 0, others = 0;
     for (const char* name : {"cable", "inlaid_spheres", "rock_wall", "two_pears"}) {
@@ -72,7 +72,7 @@ TEST_CASE("a mesh by cells is the one by the whole program") {
     // close to each other as rounding errors, they decide whether vertices are added to separate them.
     CHECK(differ * 200 < vertices);
     CHECK(others * 200 < triangles);
-    CHECK(vertices > (tests::long_tests() ? 20'000u : 3'000u));
+    CHECK(vertices > (tests::long_tests() ? 20'000u : 1'500u));
 }
 
 }  // namespace test_lines_for_meshes

@@ -70,7 +70,7 @@ class Measures(unittest.TestCase):
         np.testing.assert_array_equal(m.contact[0, 1:], m.area)
         np.testing.assert_array_equal(m.contact[1, 2], 0)
         np.testing.assert_array_equal(m.contact, m.contact.swapaxes(0, 1))
-        m = WATER(pt.box([1, 2, 0.5])).measure(tolerance=0.1, seconds=10, thickness=True)
+        m = WATER(pt.box([1, 2, 0.5])).measure(tolerance=0.1, seconds=4, thickness=True)
         self.assertIsNone(m.area)
         low, high = m.thickness[0]
         self.assertLessEqual(low, 0.5)

@@ -318,7 +318,7 @@ class Meshes(unittest.TestCase):
         mesh = self.object.mesh(0.05, progress=lambda *what: told.append(what))
         self.assertTrue(all(stage == "meshing" and 0 < share <= 1 for stage, share in told))
         # Long work reports progress a few times per second.
-        self.object.mesh(0.004, progress=lambda *what: told.append(what))
+        self.object.mesh(0.006, progress=lambda *what: told.append(what))
         self.assertGreater(len(told), 0)
         self.assertEqual(mesh.names, ("vacuum", "glass", "water"))
         self.assertAlmostEqual(mesh.spacing, 0.05)

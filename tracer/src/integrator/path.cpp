@@ -203,14 +203,14 @@ class PathIntegrator {
             path_.chain = vertex.chain_from(next, path_.ray.direction);
         } else if (bsdf.pane() && next.transmitted) {
             // Straight on, where shadow rays and photons continue as if there were no interface.
-        } else if (is_link(bsdf, surface) && !bsdf.pane()) {
+        } else if (const bool is_of_interface = is_link(bsdf, surface) && !bsdf.pane();
+                   (is_of_interface || is_mirror(bsdf) || bsdf.pane()) &&
+                   moves_away(surface, path_.ray.direction, next.transmitted)) {
             ++path_.chain.length;
-        } else if ((is_mirror(bsdf) || bsdf.pane()) && glm::dot(path_.ray.direction, surface.geometric_normal) > 0.0f) {
-            ++path_.chain.length;
-            path_.chain.has_mirror = true;
+            path_.chain.has_mirror |= !is_of_interface;
         } else {
-            // A delta lobe that neither shadow rays nor photons follow: a smooth coat, or a mirror whose bump sends the
-            // path into the mirror again.
+            // A delta lobe that neither shadow rays nor photons follow: a smooth coat, or one whose bump sends the path
+            // to the surface again.
             path_.chain = {};
         }
     }

@@ -107,6 +107,7 @@ Arrival trace_shadow_ray(const PathContext& context, Ray ray, const LightSample&
         if (!next) return arrival;
         throughput *= next->weight;
         ray = continued(*surface, frame, *next);
+        if (!moves_away(*surface, ray.direction, next->transmitted)) return arrival;
     }
 }
 

@@ -67,7 +67,7 @@ Mesh MeshFileParameters::read(std::string_view ending) const {
     mesh.vertices = std::move(read.mesh.vertices);
     mesh.triangles = std::move(read.mesh.triangles);
     if (smooth) mesh.normals = std::move(read.normals);
-    place(mesh, Placement(scale, rotate_z_degrees, translate, y_up), file);
+    place(mesh, placement(), file);
     if (ending == ".stl") join_corners(mesh);
     if (smooth && mesh.normals.empty()) mesh.normals = smooth_normals(mesh);
     for (glm::vec3& n : mesh.normals.values) make_unit(n);

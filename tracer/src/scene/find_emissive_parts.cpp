@@ -90,6 +90,11 @@ std::vector<EmissiveObject> emissive_objects(const Scene& scene) {
     return objects;
 }
 
+Places places_of(const Mesh& mesh) {
+    if (!mesh.motion) return Places();
+    return {mesh.motion->at(0), mesh.motion->at(0.5), mesh.motion->at(1)};
+}
+
 void add_objects(Scene& scene) {
     if (scene.placed.copies() > most_copies_searched) return;
     std::vector<EmissiveObject> objects = emissive_objects(scene);
@@ -121,7 +126,7 @@ void find_emissive_parts(Scene& scene) {
     else
         add_objects(scene);
     for (const Mesh& mesh : scene.meshes)
-        if (glows(mesh.material)) add(parts_of_mesh(mesh), Places(), scene.lights);
+        if (glows(mesh.material)) add(parts_of_mesh(mesh), places_of(mesh), scene.lights);
 }
 
 }  // namespace phasetree::tracer

@@ -90,7 +90,7 @@ MeshGroup GltfParameters::made() const {
                   .opacity = std::move(part.opacity),
                   .material = material.value_or(part.material),
                   .name = std::move(part.name)};
-        place(mesh, Placement(scale, rotate_z_degrees, translate, true), file);
+        place(mesh, placement(), file);
         group.meshes.push_back(std::move(mesh));
     }
     for (const std::string& sentence : read.not_shown)

@@ -24,7 +24,8 @@ struct ImageParameters : RenderSettings {
                     Limits{.low = 0.001f, .high = 100000}, true});
         v(&P::shutter, Parameter{"shutter", "s",
                                  "Times at which the shutter opens and closes, relative to the time of the picture. "
-                                 "Motion in between is blurred: transforms of objects and instances, and the camera.",
+                                 "Motion in between is blurred: transforms of objects and instances, the placements of "
+                                 "meshes, and the camera.",
                                  Limits{.low = -1e6f, .high = 1e6f}, true});
         v(&P::samples, Parameter{"samples", "", "Samples per pixel.", Limits{.low = 1, .high = 1 << 24}, true});
         v(&P::noise, Parameter{"noise", "",

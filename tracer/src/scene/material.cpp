@@ -26,16 +26,20 @@ std::vector<std::string_view> names_of_glasses() {
     return names;
 }
 
-std::optional<NormalPerturbation> PerturbationParameters::perturbation() const {
-    if (bump_texture && normal_map)
-        throw ParameterError("normal_map", "\"bump\" and \"normal_map\" cannot be combined; remove one of them",
-                             ParameterError::Place::key);
-    if (normal_map) return *normal_map;
+std::optional<Bump> BumpParameters::bump() const {
     if (bump_texture && !bump_height) throw ParameterError("bump", "\"bump\" requires \"bump_height\"");
     if (bump_height && !bump_texture)
         throw ParameterError("bump_height", "\"bump_height\" requires \"bump\"", ParameterError::Place::key);
     if (!bump_texture || *bump_height == 0.0f) return std::nullopt;
     return Bump{*bump_texture, *bump_height};
+}
+
+std::optional<NormalPerturbation> PerturbationParameters::perturbation() const {
+    if (bump_texture && normal_map)
+        throw ParameterError("normal_map", "\"bump\" and \"normal_map\" cannot be combined; remove one of them",
+                             ParameterError::Place::key);
+    if (normal_map) return *normal_map;
+    return bump();
 }
 
 std::optional<Grain> GrainParameters::grain(const Number& roughness, std::string_view roughness_key) const {
@@ -88,7 +92,8 @@ Clear ClearParameters::made() const {
             .interior = interior(),
             .roughness = roughness,
             .film = film(),
-            .dispersion = disperses};
+            .dispersion = disperses,
+            .bump = bump()};
 }
 
 Conductor ConductorParameters::made() const {

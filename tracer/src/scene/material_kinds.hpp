@@ -20,7 +20,7 @@ namespace phasetree::tracer {
 std::vector<std::string_view> names_of_media();
 std::vector<std::string_view> names_of_glasses();
 
-struct ClearParameters : FilmParameters {
+struct ClearParameters : FilmParameters, BumpParameters {
     static constexpr KindInfo info{
         "clear",
         "Vacuum, air, water, glass, milk, wax, fog: light travels inside, where it may be absorbed and scattered.",
@@ -131,6 +131,7 @@ struct ClearParameters : FilmParameters {
                                               "given emission. Hotter parts emit more.",
                                               Limits{.low = 500, .high = 100000}, true});
         film_parameters<P>(v);
+        bump_parameters<P>(v);
     }
     Medium interior() const;
     std::optional<Dispersion> dispersion() const;

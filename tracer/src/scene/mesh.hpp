@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "phasetree/io/mesh.hpp"
+#include "scene/mesh_motion.hpp"
 #include "shading/material.hpp"
 #include "shading/opacity.hpp"
 
@@ -24,6 +25,7 @@ struct Mesh {
     AtCorners<glm::vec4> tangents{};   // mesh_tangents.hpp; only where the material has a map of normals
     std::optional<Opacity> opacity{};  // opaque everywhere if absent
     Material material{};
+    std::optional<MeshMotion> motion{};  // while the shutter is open; absent if it stands still
     // The kind of the mesh, numbered from the second of a kind on: "floor", "obj 2". A part of a glTF file also has the
     // name of its material: "gltf wood".
     std::string name{};

@@ -1,5 +1,6 @@
 // The kinds of meshes in scene files: one list, which drives the reader, the reference and the schema. made() returns
-// the mesh, or a group of meshes from one file.
+// the mesh, or a group of meshes from one file, and placement() where it is. If that changes while the shutter is open,
+// the mesh moves.
 #pragma once
 
 #include <filesystem>
@@ -63,6 +64,7 @@ struct MeshFileParameters : OpacityParameters {
     // without reading the file.
     void check_without_file(std::string_view ending) const;
     Mesh read(std::string_view ending) const;
+    Placement placement() const { return Placement(scale, rotate_z_degrees, translate, y_up); }
 };
 
 struct ObjParameters : MeshFileParameters {
@@ -151,6 +153,7 @@ struct GltfParameters {
     /// Checks the parameters without reading the file. Throws ParameterError.
     void check() const;
     MeshGroup made() const;
+    Placement placement() const { return Placement(scale, rotate_z_degrees, translate, true); }
 };
 
 // A square on the plane z = height.
@@ -170,6 +173,7 @@ struct FloorParameters : OpacityParameters {
         opacity_parameters<P>(v);
     }
     Mesh made() const;
+    Placement placement() const { return Placement(1, 0, {0, 0, height}, false); }
 };
 
 // A photographer's sweep: a floor at z = height that curves smoothly up into a wall at y = distance.
@@ -200,6 +204,7 @@ struct BackdropParameters : OpacityParameters {
         opacity_parameters<P>(v);
     }
     Mesh made() const;
+    Placement placement() const { return Placement(1, 0, {0, 0, height}, false); }
 };
 
 using MeshKinds =

@@ -6,6 +6,7 @@
 #include "phasetree/io/read_kind.hpp"
 #include "scene/mesh_kinds.hpp"
 #include "scene/mesh_tangents.hpp"
+#include "scene/meshes_alone.hpp"
 #include "scene/read_parts.hpp"
 #include "scene/unread_file.hpp"
 
@@ -49,9 +50,26 @@ MeshGroup group_of(Mesh mesh, const std::string& name) {
     return {{std::move(mesh)}, {}};
 }
 
+// Only the placement is read at other times than the document's.
+template <class Kind>
+std::optional<MeshMotion> motion_of(const Document& document, Value member, const Shutter& shutter,
+                                    const Placement& of_vertices, const Bounds& vertices) {
+    const Document without_assets = document.without_assets();
+    const auto placement = [](const Kind& kind) { return kind.placement(); };
+    std::vector<PlacementMoment> moments;
+    for (const double moment : moments_of(document, member, shutter))
+        moments.push_back({moment, read_kind<Kind>(at_moment(without_assets, shutter, moment), member,
+                                                   fmt::format("the {}", Kind::info.name), placement)});
+    try {
+        return motion_through(moments, of_vertices, vertices);
+    } catch (const ModelError& e) {
+        throw document.error(member, e.what());
+    }
+}
+
 }  // namespace
 
-MeshGroup read_meshes(const Document& document, Value list) {
+MeshGroup read_meshes(const Document& document, Value list, const Shutter& shutter) {
     if (!list.is_array())
         throw document.error(list, fmt::format("\"meshes\" must be a list, but is {}", name_of(list.kind())));
     MeshGroup all;
@@ -62,8 +80,10 @@ MeshGroup read_meshes(const Document& document, Value list) {
             kinds.push_back(Kind::info.name);
             const std::string name =
                 same == 1 ? std::string(Kind::info.name) : fmt::format("{} {}", Kind::info.name, same);
+            std::optional<Placement> placement;
             MeshGroup group =
                 read_kind<Kind>(document, member, fmt::format("the {}", Kind::info.name), [&](const Kind& kind) {
+                    placement = kind.placement();
                     if (is_left_unread(document, kind)) return MeshGroup{};
                     MeshGroup made = group_of(kind.made(), name);
                     for (Mesh& mesh : made.meshes) {
@@ -73,6 +93,8 @@ MeshGroup read_meshes(const Document& document, Value list) {
                     }
                     return made;
                 });
+            const auto motion = motion_of<Kind>(document, member, shutter, *placement, bounds_of(group.meshes));
+            for (Mesh& mesh : group.meshes) mesh.motion = motion;
             std::ranges::move(group.meshes, std::back_inserter(all.meshes));
             std::ranges::move(group.not_shown, std::back_inserter(all.not_shown));
         });

@@ -23,7 +23,8 @@ Lights read_lights(const Document& document, Value root);
 AnyCameraParameters read_camera(const Document& document, Value value, FilmSettings& film);
 // The camera while the shutter is open; empty if it does not move.
 std::vector<CameraMoment> read_camera_moments(const Document& document, Value value, const Shutter& shutter);
-MeshGroup read_meshes(const Document& document, Value list);
+// Without a shutter, no mesh moves.
+MeshGroup read_meshes(const Document& document, Value list, const Shutter& shutter = {});
 // Also sets the size of the film.
 RenderSettings read_settings(const Document& document, Value value, FilmSettings& film);
 

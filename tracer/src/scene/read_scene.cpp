@@ -178,7 +178,7 @@ Scene read_parts(const Document& document, Purpose purpose, NodePlaces* places) 
     (void)read_expectations(document, {scene.phases, scene.unit ? scene.unit->metres : 1, scene.densities});
     scene.lights = read_lights(document, document.root());
     if (parts.meshes) {
-        MeshGroup group = read_meshes(document, *parts.meshes);
+        MeshGroup group = read_meshes(document, *parts.meshes, shutter);
         scene.meshes = std::move(group.meshes);
         scene.not_shown = std::move(group.not_shown);
     }
@@ -206,6 +206,11 @@ bool Scene::is_emissive() const {
     for (std::size_t i = 0; i < materials.size(); ++i)
         if (present.contains(static_cast<int>(i)) && tracer::is_emissive(materials[i])) return true;
     return std::ranges::any_of(meshes, [](const Mesh& mesh) { return tracer::is_emissive(mesh.material); });
+}
+
+bool Scene::moves() const {
+    const auto mesh_moves = [](const Mesh& mesh) { return mesh.motion.has_value(); };
+    return !camera_moments.empty() || !placed.moving.empty() || std::ranges::any_of(meshes, mesh_moves);
 }
 
 std::vector<std::string> object_names(const Scene& scene) {

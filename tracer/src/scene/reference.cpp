@@ -97,8 +97,9 @@ std::vector<Chapter> scene_chapters() {
          "linear `[r, g, b]` or sRGB `\"#rrggbb\"`.\n\n"
          "Numbers that need not be whole, vectors and colours may change with time: `{\"keys\": [[seconds, value], "
          "…]}` is interpolated linearly between the keys, or slowly at both ends with `\"between\": \"smooth\"`. A "
-         "picture shows the scene at its time. While the shutter is open, only the camera and the transforms of "
-         "objects and instances move, and are blurred.",
+         "picture shows the scene at its time. While the shutter is open, only the camera, the transforms of objects "
+         "and "
+         "instances, and the placements of meshes change, and motion is blurred.",
          {page_of<FileParts>()}}};
     chapters.push_back({"Placed objects",
                         "A scene of several objects has `\"objects\"`, and places them by `\"instances\"` and "

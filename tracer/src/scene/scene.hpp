@@ -73,7 +73,7 @@ struct Scene {
     // Whether any phase or mesh emits light.
     bool is_emissive() const;
     // Whether anything moves while the shutter is open.
-    bool moves() const { return !camera_moments.empty() || !placed.moving.empty(); }
+    bool moves() const;
 };
 
 // Reads a whole scene. Files that it names are relative to it. Throws SceneError with the location in the text.

@@ -34,22 +34,34 @@ struct FilmParameters {
     }
 };
 
-// Parameters of opaque materials that perturb the surface normals.
-struct PerturbationParameters {
+// Parameters that bump the surface normals of a material.
+struct BumpParameters {
     std::optional<Texture> bump_texture{};
     std::optional<float> bump_height{};
-    std::optional<NormalMap> normal_map{};
 
     template <class P, class V>
-    static void perturbation_parameters(V&& v) {
+    static void bump_parameters(V&& v) {
         v(&P::bump_texture, Parameter{"bump", "",
                                       "Bump map: a texture whose bright parts look raised. It changes the normals "
                                       "only, not the surface. A discontinuity of the texture counts as a slope "
-                                      "of 45° to 55°.",
+                                      "of 45° to 55°. Where two clear materials with bumps meet, the higher one is "
+                                      "used.",
                                       limits::any, true});
         v(&P::bump_height,
           Parameter{"bump_height", "m", "With a bump map: height of white above black; may be negative.",
                     Limits{.low = -farthest, .high = farthest}, true});
+    }
+    /// Throws ParameterError if only one of the two is given.
+    std::optional<Bump> bump() const;
+};
+
+// Parameters of materials that meshes may have, too, which perturb the surface normals.
+struct PerturbationParameters : BumpParameters {
+    std::optional<NormalMap> normal_map{};
+
+    template <class P, class V>
+    static void perturbation_parameters(V&& v) {
+        bump_parameters<P>(v);
         v(&P::normal_map,
           Parameter{"normal_map", "", "Instead of a bump map: a normal map, on a mesh that has texture coordinates.",
                     limits::any, true});

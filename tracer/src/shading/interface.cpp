@@ -34,6 +34,14 @@ Number thickness_of(const std::optional<SurfaceFilm>& film) {
     return film ? film->thickness : Number(0.0f);
 }
 
+// What turns the normals where light passes from one clear material to another. An interface has only one bump, which
+// is raised outwards from the material that has it, but heights are counted towards the ray.
+std::optional<NormalPerturbation> perturbation_between(const Clear& from, const Clear& to) {
+    const auto height = [](const Clear& of) { return of.bump ? std::abs(of.bump->height) : 0.0f; };
+    if (height(to) >= height(from)) return to.bump;
+    return Bump{from.bump->texture, -from.bump->height};
+}
+
 // optics_of() makes the optics of each kind of material, seen from inside a clear one.
 
 Interface::Optics optics_of(const Clear& from, const Clear& to, SharedSurfaces& shared) {
@@ -251,7 +259,9 @@ Interface Interface::between(const Material& from, const Material& to, SharedSur
         return Interface(DiffuseOptics{std::make_shared<const Texture>(ConstantTexture{glm::vec3(0.0f)})});
     return std::visit(
         [&](const auto& material) {
-            if constexpr (requires { material.perturbation; })
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(material)>, Clear>)
+                return Interface(optics_of(*clear, material, shared), perturbation_between(*clear, material));
+            else if constexpr (requires { material.perturbation; })
                 return Interface(optics_of(*clear, material, shared), material.perturbation);
             else
                 return Interface(optics_of(*clear, material, shared));

@@ -40,6 +40,7 @@ struct Clear {
     std::optional<SurfaceFilm> film{};
     /// The dispersion of the index, in which case `ior` is that at the d line; nullopt for a constant index.
     std::optional<Dispersion> dispersion{};
+    std::optional<Bump> bump{};  ///< raised outwards
 
     float ior_for(const Wavelengths* wavelengths) const {
         return wavelengths && dispersion ? dispersion->index(wavelengths->hero()) : ior;
@@ -179,6 +180,7 @@ bool has_texture(const Material& material) {
                 const Bump* bump = kind.perturbation ? std::get_if<Bump>(&*kind.perturbation) : nullptr;
                 has = has || (bump && has_kind<Wanted>(bump->texture));
             }
+            if constexpr (requires { kind.bump; }) has = has || (kind.bump && has_kind<Wanted>(kind.bump->texture));
             if constexpr (requires { kind.metalness; })
                 kind.for_each_parameter([&](const auto& parameter) { has = has || has_kind<Wanted>(parameter); });
             if constexpr (requires { kind.light; }) has = has || has_kind<Wanted>(kind.light);

@@ -10,11 +10,12 @@ namespace phasetree::tracer {
 
 namespace {
 
-// Whether the mesh stops the ray there.
+// Whether the mesh stops the ray there. If the mesh moves, the ray is in the space of the mesh as it is stored.
 bool stops(const Mesh& mesh, const RTCRay& ray, RTCHit hit) {
     float distance = 0;
     recompute_hit(mesh, ray, hit, distance);
-    const MeshPlace met{mesh, hit.primID, hit.u, hit.v};
+    MeshPlace met{mesh, hit.primID, hit.u, hit.v};
+    if (mesh.motion) met.moved = mesh.motion->at(static_cast<double>(ray.time));
     const float opacity = mesh.opacity->at(TexturePoint(met.point(), {0, 0, 1}, met.coordinates()));
     if (opacity >= 1.0f) return true;
     if (!(opacity > 0.0f)) return false;

@@ -27,19 +27,22 @@ glm::mat<count, 3, float> gradients_of(const glm::vec<count, float>& along_a, co
 
 }  // namespace
 
+glm::vec3 MeshPlace::turned(const glm::vec3& stored) const {
+    if (!moved) return stored;
+    return glm::vec3(moved->matrix * glm::dvec3(stored) / glm::length(moved->matrix[0]));
+}
+
 glm::vec3 MeshPlace::point() const {
-    const glm::uvec3& t = mesh.triangles[triangle];
-    return (1 - u - v) * mesh.vertices[t.x] + u * mesh.vertices[t.y] + v * mesh.vertices[t.z];
+    return (1 - u - v) * corner(0) + u * corner(1) + v * corner(2);
 }
 
 glm::vec3 MeshPlace::point_of_smooth_surface(bool is_behind) const {
-    const glm::uvec3& t = mesh.triangles[triangle];
     const glm::vec3 p = point();
     const float parts[] = {1 - u - v, u, v};
     glm::vec3 lift(0.0f);
     for (int i = 0; i < 3; ++i) {
-        const glm::vec3 n = (is_behind ? -1.0f : 1.0f) * mesh.normals.at(mesh.triangles, triangle, i);
-        const float height = glm::dot(mesh.vertices[t[i]] - p, n);
+        const glm::vec3 n = (is_behind ? -1.0f : 1.0f) * turned(mesh.normals.at(mesh.triangles, triangle, i));
+        const float height = glm::dot(corner(i) - p, n);
         if (height > 0.0f) lift += parts[i] * height * n;
     }
     return p + lift;
@@ -47,15 +50,14 @@ glm::vec3 MeshPlace::point_of_smooth_surface(bool is_behind) const {
 
 std::optional<MeshCoordinates> MeshPlace::coordinates() const {
     if (mesh.uv.empty() && mesh.colors.empty() && mesh.second_uv.empty() && mesh.alphas.empty()) return std::nullopt;
-    const glm::uvec3& t = mesh.triangles[triangle];
-    const glm::vec3& p = mesh.vertices[t.x];
-    const glm::mat2x3 dual = dual_basis(mesh.vertices[t.y] - p, mesh.vertices[t.z] - p);
+    const glm::vec3 p = corner(0);
+    const glm::mat2x3 dual = dual_basis(corner(1) - p, corner(2) - p);
     MeshCoordinates coordinates;
     const auto fill = [&](const auto& corners, auto& value, auto& gradients) {
         if (corners.empty()) return;
-        const auto corner = [&](int i) { return corners.at(mesh.triangles, triangle, i); };
+        const auto at = [&](int i) { return corners.at(mesh.triangles, triangle, i); };
         value = mean(corners);
-        gradients = gradients_of(corner(1) - corner(0), corner(2) - corner(0), dual);
+        gradients = gradients_of(at(1) - at(0), at(2) - at(0), dual);
     };
     fill(mesh.uv, coordinates.uv, coordinates.gradients);
     fill(mesh.colors, coordinates.color, coordinates.color_gradients);
@@ -65,13 +67,14 @@ std::optional<MeshCoordinates> MeshPlace::coordinates() const {
 }
 
 void MeshPlace::add_tangents(MeshCoordinates& coordinates, const glm::vec3& normal, bool is_behind) const {
-    const glm::vec4 tangent = mean(mesh.tangents);
-    const glm::vec3 along = glm::vec3(tangent) - normal * glm::dot(glm::vec3(tangent), normal);
+    const glm::vec4 mean_tangent = mean(mesh.tangents);
+    const glm::vec3 tangent = turned(glm::vec3(mean_tangent));
+    const glm::vec3 along = tangent - normal * glm::dot(tangent, normal);
     const float length = glm::length(along);
     if (!(length > 0.0f)) return;
     const float turn = is_behind ? -1.0f : 1.0f;
     coordinates.tangent = turn * along / length;
-    coordinates.bitangent = turn * std::copysign(1.0f, tangent.w) * glm::cross(normal, coordinates.tangent);
+    coordinates.bitangent = turn * std::copysign(1.0f, mean_tangent.w) * glm::cross(normal, coordinates.tangent);
 }
 
 }  // namespace phasetree::tracer

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scene/mesh.hpp"
+#include "scene/transform.hpp"
 #include "shading/texture/texture_point.hpp"
 
 namespace phasetree::tracer {
@@ -16,10 +17,20 @@ struct MeshPlace {
     const Mesh& mesh;
     std::size_t triangle;
     float u, v;
+    /// From the vertices as stored to their positions at the time of the ray, if the mesh moves. It scales all
+    /// directions by the same factor.
+    std::optional<Transform> moved{};
 
+    /// A corner of the triangle, from 0 to 2, at the time of the ray.
+    glm::vec3 corner(int i) const {
+        const glm::vec3& stored = mesh.vertices[mesh.triangles[triangle][i]];
+        return moved ? glm::vec3((*moved)(glm::dvec3(stored))) : stored;
+    }
+    /// A direction at the time of the ray, of the same length.
+    glm::vec3 turned(const glm::vec3& stored) const;
     /// Precise to a few ulps of the triangle's coordinates, however long the ray was.
     glm::vec3 point() const;
-    /// Interpolates values at the triangle's corners.
+    /// Interpolates values at the triangle's corners. Normals and tangents are those of the mesh as stored.
     template <class T>
     T mean(const AtCorners<T>& values) const {
         return at_barycentric(mesh, values, triangle, u, v);

@@ -64,7 +64,7 @@ TracedGeometry::NextOfSeveral TracedGeometry::next_of_several(const Ray& ray, fl
     q.time = static_cast<double>(ray.in.time());
     q.origin = glm::dvec3(ray.origin);
     q.direction = glm::dvec3(ray.direction);
-    RTCRayHit hit = embree::rayhit_of(ray.origin, ray.direction, 0, far);
+    RTCRayHit hit = rayhit_of(ray, 0, far);
     find_closest_hit(q.query, hit);
     if (q.query.is_out_of_memory) throw std::bad_alloc();
     ++counters.rays;

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <new>
 #include <span>
 #include <stdexcept>
 
 #include "phasetree/cells/file.hpp"
+#include "scene/meshes_alone.hpp"
 #include "world/bumps_and_grain.hpp"
 #include "world/kept_cells.hpp"
-#include "world/mesh_holes.hpp"
 #include "world/mesh_place.hpp"
 #include "world/triangle_hit.hpp"
 
@@ -62,20 +61,6 @@ DeviceHandle started_embree(const std::string& configuration) {
     return device;
 }
 
-void attach(RTCScene embree, RTCDevice device, const Mesh& mesh, unsigned id) {
-    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
-                                             mesh.vertices.size());
-    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
-                                              mesh.triangles.size());
-    std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(glm::vec3));
-    std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3));
-    if (mesh.opacity) leave_holes(geometry, mesh);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(embree, geometry, id);
-    rtcReleaseGeometry(geometry);
-}
-
 std::vector<Interface> interfaces_of(std::span<const Mesh> meshes, std::span<const Material> phases,
                                      SharedSurfaces& shared) {
     std::vector<Interface> interfaces;
@@ -124,19 +109,27 @@ TracedGeometry::TracedGeometry(const Scene& scene, const WorldOptions& options,
     rtcAttachGeometryByID(embree_.get(), placed_ ? placed_->handle() : tree_->handle(), object_id);
     unsigned id = first_mesh_id;
     for (const Mesh& mesh : scene.meshes) {
-        attach(embree_.get(), device_.get(), mesh, id++);
-        Bounds& box = mesh_bounds_.emplace_back();
-        for (const glm::vec3& vertex : mesh.vertices) box = unite(box, {vertex, vertex});
+        auto& moving = moving_meshes_.emplace_back();
+        if (mesh.motion) moving = std::make_unique<const MovingMesh>(device_.get(), mesh, id);
+        rtcAttachGeometryByID(embree_.get(), moving ? moving->handle() : triangles_of(device_.get(), mesh).get(), id);
+        mesh_bounds_.push_back(moving ? moving->bounds() : bounds_of({&mesh, 1}));
+        ++id;
     }
     rtcCommitScene(embree_.get());
     surface_epsilon_ = relative_surface_epsilon * bounds().diagonal();
+}
+
+RTCRayHit TracedGeometry::rayhit_of(const Ray& ray, float near, float far) {
+    RTCRayHit rayhit = embree::rayhit_of(ray.origin, ray.direction, near, far);
+    rayhit.ray.time = ray.in.time();
+    return rayhit;
 }
 
 void TracedGeometry::find_closest_hit(embree::Query& query, RTCRayHit& rayhit) const {
     embree::intersect(embree_.get(), query.context, rayhit);
     auto& [ray, hit] = rayhit;
     if (!embree::is_hit(rayhit) || hit.geomID < first_mesh_id || hit.instID[0] != RTC_INVALID_GEOMETRY_ID) return;
-    recompute_hit(embree_.get(), scene_.meshes, first_mesh_id, ray, hit, ray.tfar);
+    recompute_hit({embree_.get(), scene_.meshes, moving_meshes_, first_mesh_id}, ray, hit, ray.tfar);
 }
 
 // Traces the ray and returns whether it meets anything.
@@ -144,7 +137,7 @@ bool TracedGeometry::trace(const Ray& ray, float far, embree::Query& query, RTCR
                            PathCounters& counters) const {
     query.default_phase = ray.phase;  // the scene has one object
     query.start = ray.hint;
-    hit = embree::rayhit_of(ray.origin, ray.direction, 0, far);
+    hit = rayhit_of(ray, 0, far);
     find_closest_hit(query, hit);
     if (query.is_out_of_memory) throw std::bad_alloc();
     ++counters.rays;
@@ -170,7 +163,7 @@ std::optional<RTCRayHit> TracedGeometry::mesh_flush_with_interface(const Ray& ra
         return std::nullopt;
     embree::Query query;
     query.skips_cells = true;
-    RTCRayHit hit = embree::rayhit_of(ray.origin, ray.direction, distance, distance + depth);
+    RTCRayHit hit = rayhit_of(ray, distance, distance + depth);
     find_closest_hit(query, hit);
     return embree::is_hit(hit) ? std::optional(hit) : std::nullopt;
 }
@@ -210,14 +203,14 @@ Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& q
     Surface surface{.distance = c.t_from,
                     .normal = -normal.unit,
                     .geometric_normal = -normal.unit,
-                    .near_side = {c.p_from, c.from},
+                    .near_side = {c.p_from, c.from, ray.in, std::nullopt},
                     .far_side = std::nullopt,
                     .optics = interfaces_.between(c.from.index, c.to.index),
                     .hint = {embree::ObjectInstance::of(hit.hit), hit.hit.primID, c.from, normal.gradient},
                     .object = 0,
                     .entered = c.to,
                     .place = {c.p_from, -normal.unit, std::nullopt}};
-    if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_to, c.to};
+    if (is_clear(scene_.materials[c.to.index])) surface.far_side = {c.p_to, c.to, ray.in, std::nullopt};
     choose_of_mixture(surface);
     add_bumps_and_grain(surface, ray.direction, AlreadyInScene());
     return surface;
@@ -226,14 +219,15 @@ Surface TracedGeometry::surface_of_object(const Ray& ray, const embree::Query& q
 Surface TracedGeometry::surface_of_mesh(const Ray& ray, const RTCRayHit& hit) const {
     const std::size_t index = hit.hit.geomID - first_mesh_id;
     const Mesh& mesh = scene_.meshes[index];
-    const MeshPlace met{mesh, hit.hit.primID, hit.hit.u, hit.hit.v};
+    MeshPlace met{mesh, hit.hit.primID, hit.hit.u, hit.hit.v};
+    if (moving_meshes_[index]) met.moved = moving_meshes_[index]->at(hit.ray.time);
     const glm::vec3 p = met.point();
     glm::vec3 flat = glm::normalize(glm::vec3(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z));
     bool is_behind = glm::dot(flat, ray.direction) > 0;
     if (is_behind) flat = -flat;
     glm::vec3 shading = flat;
     if (!mesh.normals.empty()) {
-        const glm::vec3 mean = met.mean(mesh.normals);
+        const glm::vec3 mean = met.turned(met.mean(mesh.normals));
         const float length = glm::length(mean);
         // Some triangles of a mesh with normals may lack them.
         if (length > 0) {
@@ -302,7 +296,7 @@ CellStatistics TracedGeometry::statistics() const {
 }
 
 TracedGeometry::Inside TracedGeometry::inside(const glm::vec3& p, float time) const {
-    if (!placed_) return {object().label(p, Evaluator::thread_workspace()), RayObjects()};
+    if (!placed_) return {object().label(p, Evaluator::thread_workspace()), RayObjects(time)};
     const RayObjects in = placed_->objects_at(embree_.get(), p, time);
     return {in.phase(), in};
 }

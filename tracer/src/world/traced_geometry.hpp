@@ -13,6 +13,7 @@
 #include "shading/interface.hpp"
 #include "world/counters.hpp"
 #include "world/hit.hpp"
+#include "world/moving_mesh.hpp"
 #include "world/placed_geometry.hpp"
 #include "world/ray.hpp"
 #include "world/world_options.hpp"
@@ -81,6 +82,8 @@ class TracedGeometry {
     };
     using NextOfSeveral = std::variant<Escaped, RTCRayHit, CrossingInScene>;
 
+    /// The ray in Embree, at its time.
+    static RTCRayHit rayhit_of(const Ray& ray, float near, float far);
     /// Find the closest hit with Embree. The distance, coordinates and normal of a hit on a mesh are recomputed, so
     /// that they do not depend on the processor.
     void find_closest_hit(embree::Query&, RTCRayHit&) const;
@@ -109,8 +112,9 @@ class TracedGeometry {
     std::optional<embree::CellGeometry> tree_;  ///< for a scene with one tree
     std::optional<PlacedGeometry> placed_;      ///< for a scene with several objects
     SceneHandle embree_;
-    std::vector<Bounds> mesh_bounds_;
-    std::uint32_t first_mesh_;  ///< number of the first mesh in Surface::object
+    std::vector<std::unique_ptr<const MovingMesh>> moving_meshes_;  ///< of each mesh; null if it stands still
+    std::vector<Bounds> mesh_bounds_;                               ///< of each mesh, at all times
+    std::uint32_t first_mesh_;                                      ///< number of the first mesh in Surface::object
     InterfaceTable interfaces_;
     std::vector<Interface> mesh_interfaces_;  ///< [mesh · phases + phase of the ray]
     float surface_epsilon_;                   ///< minimum offset of rays that leave a mesh

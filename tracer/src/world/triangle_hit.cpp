@@ -19,11 +19,19 @@ constexpr float embree_rounding = 4e-6f;
 struct Triangle {
     glm::dvec3 first, to_second, to_third;
 
+    // As stored.
     Triangle(const Mesh& mesh, unsigned index) {
         const glm::uvec3& corners = mesh.triangles[index];
         first = glm::dvec3(mesh.vertices[corners.x]);
         to_second = glm::dvec3(mesh.vertices[corners.y]) - first;
         to_third = glm::dvec3(mesh.vertices[corners.z]) - first;
+    }
+    Triangle moved(const Transform& by) const {
+        Triangle there = *this;
+        there.first = by(first);
+        there.to_second = by.matrix * to_second;
+        there.to_third = by.matrix * to_third;
+        return there;
     }
 };
 
@@ -56,10 +64,15 @@ void write(const Place& place, RTCHit& hit, float& distance) {
     distance = static_cast<float>(std::max(place.distance, 0.0));
 }
 
+Place place_in(const MeshesInEmbree& in, unsigned geometry, unsigned index, const RTCRay& ray) {
+    const Triangle triangle(in.meshes[geometry - in.first_id], index);
+    const auto& moving = in.moving[geometry - in.first_id];
+    return place_of(moving ? triangle.moved(moving->at(ray.time)) : triangle, ray);
+}
+
 // The best triangle so far, of those around a point.
 struct BestTriangle {
-    std::span<const Mesh> meshes;
-    unsigned first_id;
+    const MeshesInEmbree& in;
     const RTCRay& ray;
     Place place;
     unsigned geometry, triangle;
@@ -71,7 +84,7 @@ struct BestTriangle {
         return std::tuple(misses, static_cast<float>(misses ? -place.inside() : place.distance), geometry, triangle);
     }
     void consider(unsigned other_geometry, unsigned other_triangle) {
-        const Place other = place_of(Triangle(meshes[other_geometry - first_id], other_triangle), ray);
+        const Place other = place_in(in, other_geometry, other_triangle, ray);
         if (!std::isfinite(other.distance) || !(other.distance >= 0)) return;
         if (!(order(other, other_geometry, other_triangle) < order(place, geometry, triangle))) return;
         place = other;
@@ -81,9 +94,33 @@ struct BestTriangle {
 };
 
 bool consider_triangle(RTCPointQueryFunctionArguments* arguments) {
-    auto& best = *static_cast<BestTriangle*>(arguments->userPtr);
-    if (arguments->geomID >= best.first_id) best.consider(arguments->geomID, arguments->primID);
+    static_cast<BestTriangle*>(arguments->userPtr)->consider(arguments->geomID, arguments->primID);
     return false;  // the radius stays
+}
+
+void query_triangles(RTCScene scene, const glm::dvec3& centre, double radius, RTCPointQueryFunction each,
+                     BestTriangle& best) {
+    RTCPointQuery query{};
+    query.x = static_cast<float>(centre.x);
+    query.y = static_cast<float>(centre.y);
+    query.z = static_cast<float>(centre.z);
+    query.radius = static_cast<float>(radius);
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(scene, &query, &context, each, &best);
+}
+
+// A triangle of a mesh that stands still, or the whole of a mesh that moves.
+bool consider_geometry(RTCPointQueryFunctionArguments* arguments) {
+    auto& best = *static_cast<BestTriangle*>(arguments->userPtr);
+    if (arguments->geomID < best.in.first_id) return false;
+    const auto& moving = best.in.moving[arguments->geomID - best.in.first_id];
+    if (!moving) return consider_triangle(arguments);
+    const RTCPointQuery& query = *arguments->query;
+    const Transform inward = moving->at(best.ray.time).inverse();
+    query_triangles(moving->scene(), inward({query.x, query.y, query.z}),
+                    static_cast<double>(query.radius) * inward.stretch(), consider_triangle, best);
+    return false;
 }
 
 }  // namespace
@@ -92,20 +129,13 @@ void recompute_hit(const Mesh& mesh, const RTCRay& ray, RTCHit& hit, float& dist
     write(place_of(Triangle(mesh, hit.primID), ray), hit, distance);
 }
 
-void recompute_hit(RTCScene scene, std::span<const Mesh> meshes, unsigned first_id, const RTCRay& ray, RTCHit& hit,
-                   float& distance) {
-    BestTriangle best{meshes,     first_id,  ray, place_of(Triangle(meshes[hit.geomID - first_id], hit.primID), ray),
-                      hit.geomID, hit.primID};
+void recompute_hit(const MeshesInEmbree& in, const RTCRay& ray, RTCHit& hit, float& distance) {
+    BestTriangle best{in, ray, place_in(in, hit.geomID, hit.primID, ray), hit.geomID, hit.primID};
     if (!(best.place.inside() >= at_edge)) {
-        RTCPointQuery query{};
-        query.x = ray.org_x + distance * ray.dir_x;
-        query.y = ray.org_y + distance * ray.dir_y;
-        query.z = ray.org_z + distance * ray.dir_z;
-        query.radius =
-            embree_rounding * (distance + std::max({std::abs(query.x), std::abs(query.y), std::abs(query.z)}));
-        RTCPointQueryContext context;
-        rtcInitPointQueryContext(&context);
-        rtcPointQuery(scene, &query, &context, consider_triangle, &best);
+        const glm::vec3 p{ray.org_x + distance * ray.dir_x, ray.org_y + distance * ray.dir_y,
+                          ray.org_z + distance * ray.dir_z};
+        const float radius = embree_rounding * (distance + std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
+        query_triangles(in.scene, glm::dvec3(p), static_cast<double>(radius), consider_geometry, best);
         hit.geomID = best.geometry;
         hit.primID = best.triangle;
     }
