@@ -326,12 +326,53 @@ TEST_CASE("measuring ends as requested, with intervals that are certain") {
     CHECK(box.phases.at(0).body.volume.width() < 1e-4);
 }
 
+TEST_CASE("measuring ends when what is known is enough") {
+    const Phased ball = Set{.phase = first, .of = Sphere{.radius = 1}};
+    const double v = 4 * pi / 3;
+    std::vector<double> widths;
+    MeasureOptions options = to(2e-3);
+    options.is_enough = [&](const MeasureResult& known) {
+        const Measured& volume = known.phases.at(0).body.volume;
+        CHECK(volume.contains(v));
+        widths.push_back(volume.width());
+        return volume.low > 3.9;
+    };
+    const MeasureResult enough = measure(ball, options);
+    CHECK(enough.end == MeasureEnd::enough);
+    CHECK(enough.phases.at(0).body.volume.low > 3.9);
+    CHECK(std::is_sorted(widths.rbegin(), widths.rend()));
+    const MeasureResult all = measure(ball, to(2e-3));
+    CHECK(enough.boxes * 3 < all.boxes);
+    // What is never enough changes no bit.
+    options.is_enough = [](const MeasureResult&) { return false; };
+    const MeasureResult never = measure(ball, options);
+    CHECK(never.end == MeasureEnd::tolerance);
+    CHECK(never.boxes == all.boxes);
+    CHECK(never.phases.at(0).body.volume.low == all.phases.at(0).body.volume.low);
+}
+
+TEST_CASE("only the phases that must be precise are divided finely") {
+    const Phased object =
+        Over{.of = {Set{.phase = first, .of = Sphere{.radius = 1}},
+                    Set{.phase = second, .of = warped(Translate{.by = {5, 0, 0}}, Sphere{.radius = 1})}}};
+    MeasureOptions options = to(1e-3);
+    const MeasureResult both = measure(object, options);
+    options.precise_phases = PhaseSet::of(second);
+    const MeasureResult one = measure(object, options);
+    CHECK(one.end == MeasureEnd::tolerance);
+    CHECK(volume_of(one, second).width() <= 1e-3 * volume_of(one, second).low);
+    CHECK(volume_of(one, first).contains(4 * pi / 3));
+    CHECK(volume_of(one, first).width() > 1e-3 * volume_of(one, first).high);
+    CHECK(one.boxes * 10 < both.boxes * 7);
+}
+
 TEST_CASE("the reasons for an end have names") {
     CHECK(name_of(MeasureEnd::tolerance) == "tolerance");
     CHECK(name_of(MeasureEnd::precision) == "precision");
     CHECK(name_of(MeasureEnd::seconds) == "time");
     CHECK(name_of(MeasureEnd::boxes) == "boxes");
     CHECK(name_of(MeasureEnd::cancelled) == "interrupted");
+    CHECK(name_of(MeasureEnd::enough) == "enough");
 }
 
 TEST_CASE("a phase that is hidden has a volume of zero") {

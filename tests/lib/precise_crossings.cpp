@@ -65,7 +65,8 @@ std::vector<Walk> check_rays(const Phased& object, const PreciseTracer& tracer, 
             walks::check_brackets(tracer, w, o, d, totals);
             walks::compare(object, w, exact, o, d, length, tolerance, totals);
         }
-        walks::compare_isolated(object, walks[i], exact, o, d, size, exactness, totals);
+        // A phase counts as left where another is deeper by η, so that is how far a crossing may be from the face.
+        walks::compare_isolated(object, walks[i], exact, o, d, size, std::max(exactness, tracer.value_error()), totals);
     }
     return walks;
 }

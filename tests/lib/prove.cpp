@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -285,6 +287,27 @@ TEST_CASE("volumes within and beyond limits") {
     CHECK(proofs[1].verdict == phasetree::Verdict::refuted);
     CHECK(proofs[2].verdict == phasetree::Verdict::refuted);
     CHECK(proofs[0].measured.contains(volume));
+}
+
+TEST_CASE("a proof ends as soon as all is decided, and tells how far it is") {
+    const Phased object = Over{.of = {set(glass, ball({0.5, 0, 0}, 1)), set(iron, ball({4, 0, 0}, 1))}};
+    const double volume = 4.0 / 3 * 3.141592653589793;
+    // The second statement needs a much finer division than the first, and neither needs much time.
+    const std::vector<Statement> statements{HasVolume{{{glass, 1.0}}, 0.9 * volume, 1.1 * volume},
+                                            HasVolume{{{iron, 1.0}}, 0.999 * volume, 1.001 * volume},
+                                            IsThick{glass, 0.5}, HasNoDeadNodes{}};
+    ProveOptions options;
+    options.resolution = 0.1;
+    options.seconds = 1000;
+    std::vector<float> told;
+    options.progress = [&](float share) { told.push_back(share); };
+    const auto start = std::chrono::steady_clock::now();
+    for (const Proof& proof : prove(object, statements, options)) CHECK(proof.verdict == phasetree::Verdict::proved);
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(250));
+    REQUIRE(told.size() > 1);
+    CHECK(std::is_sorted(told.begin(), told.end()));
+    CHECK(told.back() == 1);
+    CHECK(told.front() < 1);
 }
 
 TEST_CASE("volumes that no measurement decides leave time for other statements") {

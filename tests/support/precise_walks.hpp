@@ -273,9 +273,15 @@ inline void compare_isolated(const Phased& object, const Walk& walk, std::span<c
             // Within rounding errors of a face, the ray may be in any phase that meets there. compare() judges that.
             if (c.from != exact[i - 1].phase || c.to != exact[i].phase) continue;
             ++totals.normals;
-            const bool is_off = std::abs(c.t_to - t) > tolerance / cosine;
-            const bool is_turned = glm::length(glm::cross(c.normal, n)) > 1e-6 + 1e3 * tolerance / size;
-            if ((is_off || is_turned) && totals.bad_normals++ < 3) totals.complain("misplaced or turned", o, d);
+            const double off = std::abs(c.t_to - t), most_off = tolerance / cosine;
+            const double turned = glm::length(glm::cross(c.normal, n)), most_turned = 1e-6 + 1e3 * tolerance / size;
+            if ((off > most_off || turned > most_turned) && totals.bad_normals++ < 3) {
+                std::ostringstream text;
+                text << "off by " << off << " (at most " << most_off << "), turned by " << turned << " (at most "
+                     << most_turned << "), from " << int(c.from.index) << " to " << int(c.to.index) << " at t = " << t
+                     << ", object of size " << size;
+                totals.complain(text.str(), o, d);
+            }
         }
     }
 }

@@ -124,7 +124,10 @@ class Measurement {
         const MomentBounds m(total_[p], total_.additions());
         return m.high[0] - m.low[0];
     }
-    bool is_precise(Phase p) const { return width(p) <= allowed(p); }
+    bool must_be_precise(Phase p) const {
+        return !options_.precise_phases || options_.precise_phases->contains(p.index);
+    }
+    bool is_precise(Phase p) const { return !must_be_precise(p) || width(p) <= allowed(p); }
     // Whether the doubt that smaller boxes cannot reduce is most of the total, and by itself exceeds the tolerance.
     bool is_at_end(Phase p) const {
         const double final_doubt = total_[p].final_doubt;
@@ -138,7 +141,8 @@ class Measurement {
                            static_cast<double>(root_.box.extent().z);
         for_each_solid([&](Phase p) {
             const double target = std::max(allowed(p), 1e-12 * all);
-            if (width(p) > target) least = std::min(least, std::log(all / width(p)) / std::log(all / target));
+            if (must_be_precise(p) && width(p) > target)
+                least = std::min(least, std::log(all / width(p)) / std::log(all / target));
         });
         return std::clamp(least, 0.0, 1.0);
     }
@@ -169,6 +173,7 @@ class Measurement {
                 are_done = are_done && (is_precise(p) || is_at_end(p));
             });
             if (are_done) return are_precise ? MeasureEnd::tolerance : MeasureEnd::precision;
+            if (options_.is_enough && options_.is_enough(result(MeasureEnd::enough))) return MeasureEnd::enough;
             const auto is_open = [](const Part& p) { return p.is_coarse && !p.is_full; };
             if (std::ranges::none_of(parts_, is_open))
                 return std::ranges::any_of(parts_, &Part::is_full) ? MeasureEnd::boxes : MeasureEnd::precision;
@@ -336,6 +341,8 @@ std::string_view name_of(MeasureEnd end) {
             return "boxes";
         case MeasureEnd::cancelled:
             return "interrupted";
+        case MeasureEnd::enough:
+            return "enough";
     }
     return "";
 }

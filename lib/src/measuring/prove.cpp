@@ -41,10 +41,10 @@ class Prover {
     std::vector<Proof> run() {
         const FlushSubnormals flush;
         const double for_nodes = has_nodes() ? 0.2 : 0;
-        decide_volumes(0.1, 0.01, 0.25);
+        decide_volumes(0.01, 0.25);
         divide((has_open_volume() ? 0.75 : 1) - for_nodes);
-        decide_nodes(has_open_volume() ? 0.75 : 1);
-        decide_volumes(0.001, finest_tolerance, 1);
+        decide_nodes(for_nodes);
+        decide_volumes(finest_tolerance, 1);
         if (stopped()) give_up(is_cancelled_ ? "interrupted" : "time ran out");
         give_up("the resolution is too coarse");
         if (options_.progress) options_.progress(1.f);
@@ -63,7 +63,19 @@ class Prover {
         if (seconds_left() <= 0) is_stopped_ = true;
         return is_stopped_;
     }
-    double seconds_left() const { return end_of_stage_ - std::chrono::duration<double>(Clock::now() - start_).count(); }
+    double seconds_passed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    double seconds_left() const { return end_of_stage_ - seconds_passed(); }
+    // Reports the share of the statements that are decided, or of the time if that is greater.
+    void tell() {
+        if (!options_.progress) return;
+        const auto decided = static_cast<double>(std::ranges::count_if(
+            proofs_, [](const Proof& p) { return p.verdict != Verdict::undecided || !p.reason.empty(); }));
+        const double share = std::max(decided / static_cast<double>(std::max<std::size_t>(1, proofs_.size())),
+                                      seconds_passed() / options_.seconds);
+        if (!(share > told_ + 1.0 / 1024) || share > 1 - 1.0 / 1024) return;
+        told_ = share;
+        options_.progress(static_cast<float>(share));
+    }
     void divide(double share) {
         begin_stage(share);
         const std::function<bool()> is_stopped = [this] { return stopped(); };
@@ -82,7 +94,7 @@ class Prover {
                 if (e.exceeded_max_boxes) give_up("more boxes are needed than allowed");
                 break;
             }
-            if (options_.progress) options_.progress(std::ldexp(1.0f, 2 * (levels - last)));
+            tell();
         }
         if (stopped()) give_up(is_cancelled_ ? "interrupted" : "time ran out", false);
     }
@@ -137,9 +149,11 @@ class Prover {
         return std::ranges::any_of(statements_,
                                    [](const Statement& s) { return std::holds_alternative<HasNoDeadNodes>(s); });
     }
+    // Takes at most this share of the time.
     void decide_nodes(double share) {
-        begin_stage(share);
-        if (!has_nodes() || stopped()) return;
+        if (!has_nodes()) return;
+        begin_stage(share + seconds_passed() / options_.seconds);
+        if (stopped()) return;
         NodeEffectsOptions options;
         options.seconds = std::max(seconds_left(), 1e-3);
         options.cancelled = [this] { return stopped(); };
@@ -180,51 +194,52 @@ class Prover {
             proof.verdict = Verdict::proved;
     }
     // Decides open statements about volumes. Each gets an equal part of the stage's remaining time.
-    void decide_volumes(double tolerance, double finest, double share) {
+    void decide_volumes(double tolerance, double share) {
         begin_stage(share);
         std::size_t left = 0;
         for (std::size_t i = 0; i < statements_.size(); ++i)
             left += std::holds_alternative<HasVolume>(statements_[i]) && is_open(i);
         for (std::size_t i = 0; i < statements_.size() && !stopped(); ++i)
             if (const auto* volume = std::get_if<HasVolume>(&statements_[i]); volume && is_open(i))
-                decide_volume(*volume, i, tolerance, finest, seconds_left() / static_cast<double>(left--));
+                decide_volume(*volume, i, tolerance, seconds_left() / static_cast<double>(left--));
     }
-    // Measures more and more precisely until the interval is on one side of each limit.
-    void decide_volume(const HasVolume& s, std::size_t i, double tolerance, double finest, double seconds) {
-        const Clock::time_point start = Clock::now();
-        Proof& proof = proofs_[i];
-        for (; tolerance > 0.99 * finest && !stopped(); tolerance /= 10) {
-            const double left = seconds - std::chrono::duration<double>(Clock::now() - start).count();
-            if (left <= 0) return;
-            MeasureOptions options;
-            options.tolerance = tolerance;
-            options.seconds = std::max(left, 1e-3);
-            options.cancelled = options_.cancelled;
-            const MeasureResult measured = measure(object_, options);
-            Measured sum{0, 0, 0};
-            for (const MeasuredPhase& p : measured.phases)
-                for (const auto& [phase, weight] : s.weights)
-                    if (phase == p.phase) {
-                        sum.low += weight * p.body.volume.low;
-                        sum.high += weight * p.body.volume.high;
-                        sum.estimate += weight * p.body.volume.estimate;
-                        if (p.body.volume.low > 0) present_[i] = present_[i] | PhaseSet::of(phase);
-                    }
-            // The rounding errors of at most 64 products and sums.
-            sum.low *= 1 - 1e-14;
-            sum.high *= 1 + 1e-14;
-            proof.measured = sum;
-            is_measured_[i] = true;
-            conclude(s, i);
-            if (proof.verdict != Verdict::undecided) return;
-            const bool is_within = sum.low >= s.at_least && sum.high <= s.at_most;
-            if (is_within) return;  // within the limits; only the presence of the phases is still undecided
-            if (measured.end == MeasureEnd::precision) {
-                proof.reason = "32-bit coordinates allow no narrower interval";
-                return;
-            }
-        }
-        if (finest <= finest_tolerance && !stopped()) proof.reason = "the interval contains the limit";
+    // Measures until the interval is on one side of each limit.
+    void decide_volume(const HasVolume& s, std::size_t i, double tolerance, double seconds) {
+        PhaseSet wanted;
+        for (const auto& [phase, weight] : s.weights) wanted = wanted | PhaseSet::of(phase);
+        MeasureOptions options;
+        options.tolerance = tolerance;
+        options.precise_phases = wanted;
+        options.seconds = std::max(seconds, 1e-3);
+        options.cancelled = options_.cancelled;
+        options.is_enough = [&](const MeasureResult& known) { return is_decided(s, i, known); };
+        options.progress = [this](float) { tell(); };
+        const MeasureResult measured = measure(object_, options);
+        if (is_decided(s, i, measured)) return;
+        if (measured.end == MeasureEnd::precision)
+            proofs_[i].reason = "32-bit coordinates allow no narrower interval";
+        else if (tolerance <= finest_tolerance && measured.end == MeasureEnd::tolerance)
+            proofs_[i].reason = "the interval contains the limit";
+    }
+    // Records the volume, and returns whether it is on one side of each limit. The presence of the phases may still be
+    // undecided then.
+    bool is_decided(const HasVolume& s, std::size_t i, const MeasureResult& measured) {
+        Measured sum{0, 0, 0};
+        for (const MeasuredPhase& p : measured.phases)
+            for (const auto& [phase, weight] : s.weights)
+                if (phase == p.phase) {
+                    sum.low += weight * p.body.volume.low;
+                    sum.high += weight * p.body.volume.high;
+                    sum.estimate += weight * p.body.volume.estimate;
+                    if (p.body.volume.low > 0) present_[i] = present_[i] | PhaseSet::of(phase);
+                }
+        // The rounding errors of at most 64 products and sums.
+        sum.low *= 1 - 1e-14;
+        sum.high *= 1 + 1e-14;
+        proofs_[i].measured = sum;
+        is_measured_[i] = true;
+        conclude(s, i);
+        return proofs_[i].verdict != Verdict::undecided || (sum.low >= s.at_least && sum.high <= s.at_most);
     }
 
     static constexpr double finest_tolerance = 1e-6;
@@ -240,6 +255,7 @@ class Prover {
     std::vector<PhaseSet> present_;
     std::vector<bool> is_measured_;
     double end_of_stage_ = 0;  // in seconds since the start
+    double told_ = 0;          // the last progress
     std::atomic<bool> is_stopped_{false}, is_cancelled_{false};
 };
 

@@ -106,7 +106,24 @@ class Solver {
         if (options_.progress) options_.progress({result_.low, result_.high, std::clamp(done_ / steps_, 0.0, 1.0)});
     }
 
-    // Measures a number, for the first time or more precisely.
+    // The quantity, with the rounding errors of at most 64 products and sums.
+    Measured quantity(const MeasureResult& measured) const {
+        Measured sum{0, 0, 0};
+        double magnitude = 0;
+        for (const MeasuredPhase& p : measured.phases)
+            for (const auto& [phase, weight] : target_.weights)
+                if (phase == p.phase) {
+                    sum.low += weight * p.body.volume.low;
+                    sum.high += weight * p.body.volume.high;
+                    sum.estimate += weight * p.body.volume.estimate;
+                    magnitude += weight * p.body.volume.high;
+                }
+        sum.low -= 1e-14 * magnitude;
+        sum.high += 1e-14 * magnitude;
+        return sum;
+    }
+    // Measures a number, for the first time or more precisely: to its tolerance, or until it is decided on which side
+    // of the target it is.
     void measure_once(Candidate& c) {
         ++result_.measurements;
         Phased object = object_(c.at);
@@ -123,21 +140,11 @@ class Solver {
         options.max_boxes = options_.max_boxes;
         options.cancelled = options_.cancelled;
         options.progress = [&](float) { tell(); };
+        options.is_enough = [&](const MeasureResult& known) { return side_of(quantity(known)) != Side::undecided; };
         const MeasureResult measured = phasetree::measure(object, options);
-        double magnitude = 0;
-        Measured& sum = c.known->measure;
-        for (const MeasuredPhase& p : measured.phases)
-            for (const auto& [phase, weight] : target_.weights)
-                if (phase == p.phase) {
-                    sum.low += weight * p.body.volume.low;
-                    sum.high += weight * p.body.volume.high;
-                    sum.estimate += weight * p.body.volume.estimate;
-                    magnitude += weight * p.body.volume.high;
-                }
-        // The rounding errors of at most 64 products and sums.
-        sum.low -= 1e-14 * magnitude;
-        sum.high += 1e-14 * magnitude;
-        c.is_exhausted = measured.end != MeasureEnd::tolerance || c.tolerance <= finest_tolerance;
+        c.known->measure = quantity(measured);
+        c.is_exhausted = (measured.end != MeasureEnd::tolerance && measured.end != MeasureEnd::enough) ||
+                         c.tolerance <= finest_tolerance;
     }
     Side side_of(const Measured& m) const {
         return m.high < target_.value ? Side::below : m.low > target_.value ? Side::above : Side::undecided;

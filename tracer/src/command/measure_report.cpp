@@ -28,6 +28,8 @@ std::string_view explanation_of(MeasureEnd end) {
             return "the maximum number of boxes was reached";
         case MeasureEnd::cancelled:
             return "interrupted";
+        case MeasureEnd::enough:
+            return "the question is answered";
     }
     return "";
 }

@@ -47,10 +47,15 @@ struct MeasuredPhase {
     std::array<Measured, 3> box_low{}, box_high{};
 };
 
+struct MeasureResult;
+
 struct MeasureOptions {
     /// Measuring ends once the interval of each phase's volume is no wider than this fraction of the volume. For phases
     /// that make up less than a thousandth of the object, it is a fraction of that thousandth instead. Positive.
     double tolerance = 1e-3;
+    /// The phases whose volumes must be that precise; all phases by default. Those of the others are measured along the
+    /// way.
+    std::optional<PhaseSet> precise_phases{};
     /// Measuring ends after this time, whatever is known by then. Positive.
     double seconds = std::numeric_limits<double>::infinity();
     /// Measuring ends once it would take more than about this many boxes to divide the object. Unlike the time, this
@@ -59,6 +64,9 @@ struct MeasureOptions {
     /// Densities of phases, in units of mass per cubed unit of length. Not negative.
     std::vector<std::pair<Phase, double>> densities{};
     std::function<bool()> cancelled{};  ///< polled from any thread; return true to stop and get what is known so far
+    /// Receives what is known after each pass over the object, from the calling thread. Measuring ends once it returns
+    /// true, such as when the intervals answer a question.
+    std::function<bool(const MeasureResult&)> is_enough{};
     /// Receives the fraction of the work that is done, in (0, 1], strictly increasing up to 1. Called from one thread
     /// at a time. A guess, because how fast intervals shrink is not known beforehand.
     std::function<void(float)> progress{};
@@ -70,9 +78,10 @@ enum class MeasureEnd {
     precision,  ///< smaller boxes would not help, because of the rounding errors of 32-bit coordinates
     seconds,    ///< the time ran out
     boxes,      ///< MeasureOptions::max_boxes
-    cancelled   ///< MeasureOptions::cancelled returned true
+    cancelled,  ///< MeasureOptions::cancelled returned true
+    enough      ///< MeasureOptions::is_enough returned true
 };
-/// "tolerance", "precision", "time", "boxes" or "interrupted".
+/// "tolerance", "precision", "time", "boxes", "interrupted" or "enough".
 std::string_view name_of(MeasureEnd);
 
 struct MeasureResult {
