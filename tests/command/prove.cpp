@@ -63,7 +63,18 @@ TEST_CASE("verdicts have the place of their statement, and decide the exit code"
         run(flask(expect(R"({"wall": {"phase": "glass", "at_least": 2}})")), {"check", "--prove", "--resolution", "1"});
     CHECK(open.code == 5);
     CHECK(has(open.out, "undecided: "));
-    CHECK(has(open.out, "the resolution is too coarse"));
+    CHECK(has(open.out, "the resolution is too coarse at boxes of "));
+    CHECK(has(open.out, "choose a finer one with --resolution"));
+}
+
+TEST_CASE("a statement that takes several lines in the file is printed in one") {
+    const Run run;
+    const Outcome o = run(flask(expect(R"({ "wall": {  // the glass, not the
+        "phase": "glass" /* the wall */, "at_least":
+        1.2 } })")),
+                          {"check", "--prove", "--resolution", "0.3"});
+    CAPTURE(o.out);
+    CHECK(has(o.out, R"(proved: {"wall": {"phase": "glass", "at_least": 1.2}})"));
 }
 
 TEST_CASE("volumes and masses are in the units of the statement, and the scene's unit and densities count") {

@@ -106,6 +106,8 @@ class Solver {
         if (options_.progress) options_.progress({result_.low, result_.high, std::clamp(done_ / steps_, 0.0, 1.0)});
     }
 
+    enum class Until { decided, tolerance };
+
     // The quantity, with the rounding errors of at most 64 products and sums.
     Measured quantity(const MeasureResult& measured) const {
         Measured sum{0, 0, 0};
@@ -124,7 +126,7 @@ class Solver {
     }
     // Measures a number, for the first time or more precisely: to its tolerance, or until it is decided on which side
     // of the target it is.
-    void measure_once(Candidate& c) {
+    void measure_once(Candidate& c, Until until = Until::decided) {
         ++result_.measurements;
         Phased object = object_(c.at);
         const PhaseSet others{phases(object).bits & ~wanted_.bits & ~PhaseSet::of(vacuum).bits};
@@ -140,7 +142,8 @@ class Solver {
         options.max_boxes = options_.max_boxes;
         options.cancelled = options_.cancelled;
         options.progress = [&](float) { tell(); };
-        options.is_enough = [&](const MeasureResult& known) { return side_of(quantity(known)) != Side::undecided; };
+        if (until == Until::decided)
+            options.is_enough = [&](const MeasureResult& known) { return side_of(quantity(known)) != Side::undecided; };
         const MeasureResult measured = phasetree::measure(object, options);
         c.known->measure = quantity(measured);
         c.is_exhausted = (measured.end != MeasureEnd::tolerance && measured.end != MeasureEnd::enough) ||
@@ -259,7 +262,8 @@ class Solver {
         return SolveEnd::undecided;
     }
 
-    // Interpolates between the ends, by their estimates.
+    // Interpolates between the ends, by their estimates; if there is no time to measure that number, takes the end that
+    // is closer to the target.
     void find_best(double tolerance) {
         const SolvePoint &low = *result_.low, &high = *result_.high;
         const double at = std::clamp(rounded(interpolated(), high.at - low.at), low.at, high.at);
@@ -269,8 +273,9 @@ class Solver {
         else if (at == high.at)
             c.known = high;
         else if (!stopped())
-            measure_once(c);
-        result_.best = c.known ? *c.known : SolvePoint{at, Measured()};
+            measure_once(c, Until::tolerance);
+        const auto off = [&](const SolvePoint& end) { return std::abs(end.measure.estimate - target_.value); };
+        result_.best = c.known ? *c.known : off(low) < off(high) ? low : high;
     }
 
     const ObjectOf& object_;

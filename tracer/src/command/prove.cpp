@@ -76,6 +76,43 @@ std::string witness_text(const Outcome& outcome, const PhaseNames& names) {
     return fmt::format("; see {} and {}", text(points.front()), text(points.back()));
 }
 
+// A statement of the file without its line breaks and comments.
+std::string in_one_line(const std::string& text) {
+    std::string line;
+    const auto ends_with_bracket = [&] { return !line.empty() && (line.back() == '{' || line.back() == '['); };
+    bool is_in_string = false, is_space_due = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i], next = i + 1 < text.size() ? text[i + 1] : ' ';
+        if (!is_in_string && c == '/' && (next == '/' || next == '*')) {
+            const std::size_t end = next == '/' ? text.find('\n', i) : text.find("*/", i + 2) + 1;
+            i = std::min(end, text.size());
+            is_space_due = true;
+        } else if (!is_in_string && (c == ' ' || c == '\t' || c == '\n' || c == '\r')) {
+            is_space_due = true;
+        } else {
+            if (is_space_due && !ends_with_bracket() && c != '}' && c != ']' && c != ',') line += ' ';
+            is_space_due = false;
+            line += c;
+            if (is_in_string && c == '\\' && i + 1 < text.size())
+                line += text[++i];
+            else if (c == '"')
+                is_in_string = !is_in_string;
+        }
+    }
+    return line;
+}
+
+// Why a statement is undecided, and what would help; why it is refuted.
+std::string reason_text(const Proof& proof) {
+    if (proof.reason.empty()) return "";
+    const std::string reached =
+        proof.resolution > 0 ? fmt::format(" at boxes of {:.3g} units of length", proof.resolution) : "";
+    if (proof.reason == "time ran out") return fmt::format(": time ran out{}; allow more with --time", reached);
+    if (proof.reason == "the resolution is too coarse")
+        return fmt::format(": the resolution is too coarse{}; choose a finer one with --resolution", reached);
+    return ": " + proof.reason;
+}
+
 std::string interval_text(const Outcome& outcome) {
     if (!std::holds_alternative<HasVolume>(outcome.expectation.statement) || outcome.proof.measured.high == 0)
         return "";
@@ -89,9 +126,8 @@ void print_text(const std::string& scene, const Document& document, const std::v
                 const PhaseNames& names) {
     for (const Outcome& outcome : outcomes) {
         const std::string verdict =
-            fmt::format("{}: {}{}{}{}{}", name_of(outcome.proof.verdict), outcome.expectation.text,
-                        outcome.proof.reason.empty() ? "" : ": ", outcome.proof.reason, interval_text(outcome),
-                        witness_text(outcome, names));
+            fmt::format("{}: {}{}{}{}", name_of(outcome.proof.verdict), in_one_line(outcome.expectation.text),
+                        reason_text(outcome.proof), interval_text(outcome), witness_text(outcome, names));
         std::string place = scene;
         if (outcome.expectation.offset > 0) {
             const SceneError e = document.error(outcome.expectation.offset, "");

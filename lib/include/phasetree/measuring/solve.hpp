@@ -63,8 +63,8 @@ struct SolveResult {
     /// The ends of the bracket. For each, the guaranteed interval of the quantity does not contain the target. If there
     /// is no bracket, the ends that were measured.
     std::optional<SolvePoint> low, high;
-    /// A number in the bracket with few digits, for which the quantity is close to the target. Measured if there was
-    /// time.
+    /// A number in the bracket with few digits, for which the quantity is close to the target; if there was no time to
+    /// measure it, the closer end of the bracket.
     std::optional<SolvePoint> best;
     /// For SolveEnd::undecided: the first number that was tried, and the interval of its quantity, which contains the
     /// target.
