@@ -2707,7 +2707,7 @@ def distort(of: Object, amplitude: float, scale: float, octaves: float | None = 
 
 class materials:
     @staticmethod
-    def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., phase_function: PhaseFunction | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., temperature_grid: Voxels | None = ..., emission_temperature: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+    def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., phase_function: PhaseFunction | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., temperature_grid: Voxels | None = ..., emission_temperature: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
         r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, where it may be absorbed and scattered.
 
             exp(−(a + s) d)
@@ -2736,6 +2736,8 @@ class materials:
         emission_temperature: With a temperature grid: the temperature at which the medium has the given emission. Hotter parts emit more. (number in K; at least 500 and at most 100000; default 2000)
         film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
+        bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         """
     @staticmethod
     def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
@@ -2743,7 +2745,7 @@ class materials:
 
         color: Reflectance. (colour or texture)
         roughness: Roughness: 0 is Lambert's law, 1 is clay or the moon, whose limb is as bright as its centre. (number or field; at least 0 and at most 1; default 0)
-        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
         bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
@@ -2762,7 +2764,7 @@ class materials:
         grain_aspect: With a grain: ratio of the roughness along the grain to that across it; default 0.2. (number; at least 0.1 and at most 1; default none)
         film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
         bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
@@ -2775,7 +2777,7 @@ class materials:
         roughness: Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
         film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
         film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
         bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
@@ -2810,7 +2812,7 @@ class materials:
         emission_color: Colour of the emitted light; default white. (colour or texture; default none)
         emission_spectrum: Spectrum of the emission, as "spectrum" of lights. With it, only the brightness of the emission is used. (list of [nm, number], or {"blackbody": kelvin}; default none)
         group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
         bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
@@ -2835,7 +2837,7 @@ class materials:
         thickness: Thickness of the pane, for its colour: the colour is then that after "color_distance", as in "clear". The pane remains a surface. (number in m; positive; default none)
         color_distance: With a thickness: the distance after which white light has the colour; default 1. (number in m; positive; default none)
         roughness: Roughness α of GGX: 0 is clear, 0.2 frosted. Light is then blurred as much in transmission as in reflection, which is more than two rough faces do. (number or field; at least 0 and at most 1; default 0)
-        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
         bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
@@ -2845,7 +2847,7 @@ class materials:
 
         color: Reflectance. (colour or texture)
         transmission: Transmittance. Where the sum with the reflectance exceeds 1 in a channel, both are divided by the sum. (colour or texture)
-        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
+        bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
         bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
         normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
         """
@@ -2865,7 +2867,7 @@ class materials:
         amount: Fraction of the second material; between 0 and 1 the two are blended. (number or field; at least 0 and at most 1; default 0.5)
         """
 
-def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., phase_function: PhaseFunction | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., temperature_grid: Voxels | None = ..., emission_temperature: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ...) -> Material:
+def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused_silica", "sapphire", "sf11", "water"] | None = ..., abbe_number: float | None = ..., absorption: Sequence[float] | np.ndarray | None = ..., absorption_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., color: Sequence[float] | str | None = ..., color_distance: float | None = ..., roughness: float | Number | None = ..., scattering: Sequence[float] | np.ndarray | None = ..., albedo: Sequence[float] | np.ndarray | None = ..., mean_free_path: Sequence[float] | np.ndarray | None = ..., medium: Literal["apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skim_milk", "skin1", "skin2", "spectralon", "whole_milk"] | None = ..., scale: float | None = ..., anisotropy: float | None = ..., phase_function: PhaseFunction | None = ..., emission: Sequence[float] | np.ndarray | None = ..., emission_spectrum: Sequence[Sequence[float]] | np.ndarray | None = ..., density: Field | Expression | None = ..., density_depth: float | None = ..., density_grid: Voxels | None = ..., temperature_grid: Voxels | None = ..., emission_temperature: float | None = ..., film_thickness: float | Number | None = ..., film_ior: float | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ...) -> Material:
     r"""Vacuum, air, water, glass, milk, wax, fog: light travels inside, where it may be absorbed and scattered.
 
         exp(−(a + s) d)
@@ -2894,6 +2896,8 @@ def clear(ior: float | None = ..., glass: Literal["bk7", "diamond", "f2", "fused
     emission_temperature: With a temperature grid: the temperature at which the medium has the given emission. Hotter parts emit more. (number in K; at least 500 and at most 100000; default 2000)
     film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
+    bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     """
 
 def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | None = ..., bump: Sequence[float] | str | Texture | None = ..., bump_height: float | None = ..., normal_map: NormalMap | None = ...) -> Material:
@@ -2901,7 +2905,7 @@ def diffuse(color: Sequence[float] | str | Texture, roughness: float | Number | 
 
     color: Reflectance. (colour or texture)
     roughness: Roughness: 0 is Lambert's law, 1 is clay or the moon, whose limb is as bright as its centre. (number or field; at least 0 and at most 1; default 0)
-    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
     bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
@@ -2920,7 +2924,7 @@ def conductor(metal: Literal["aluminium", "brass", "chromium", "copper", "gold",
     grain_aspect: With a grain: ratio of the roughness along the grain to that across it; default 0.2. (number; at least 0.1 and at most 1; default none)
     film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
     bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
@@ -2933,7 +2937,7 @@ def coated(color: Sequence[float] | str | Texture, ior: float | None = ..., roug
     roughness: Roughness α of GGX: 0 is polished, 0.1 satin, 0.5 matt. (number or field; at least 0 and at most 1; default 0)
     film_thickness: Thickness of a thin film on the surface, which shows interference colours as soap and oil do; by default there is none. Where two clear materials with films meet, the thicker one is used. (number or field in nm; at least 0 and at most 5000; default none)
     film_ior: Refractive index of the film. (number; at least 1 and at most 4; default 1.33)
-    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
     bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
@@ -2968,7 +2972,7 @@ def principled(base_color: Sequence[float] | str | Texture | None = ..., base_we
     emission_color: Colour of the emitted light; default white. (colour or texture; default none)
     emission_spectrum: Spectrum of the emission, as "spectrum" of lights. With it, only the brightness of the emission is used. (list of [nm, number], or {"blackbody": kelvin}; default none)
     group: Light group, of letters, digits, - and _. The light of each group is written to a plane of its own. (text; default "default")
-    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
     bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
@@ -2993,7 +2997,7 @@ def thin_glass(ior: float | None = ..., color: Sequence[float] | str | Texture |
     thickness: Thickness of the pane, for its colour: the colour is then that after "color_distance", as in "clear". The pane remains a surface. (number in m; positive; default none)
     color_distance: With a thickness: the distance after which white light has the colour; default 1. (number in m; positive; default none)
     roughness: Roughness α of GGX: 0 is clear, 0.2 frosted. Light is then blurred as much in transmission as in reflection, which is more than two rough faces do. (number or field; at least 0 and at most 1; default 0)
-    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
     bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
@@ -3003,7 +3007,7 @@ def thin_diffuse(color: Sequence[float] | str | Texture, transmission: Sequence[
 
     color: Reflectance. (colour or texture)
     transmission: Transmittance. Where the sum with the reflectance exceeds 1 in a channel, both are divided by the sum. (colour or texture)
-    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. (colour or texture; default none)
+    bump: Bump map: a texture whose bright parts look raised. It changes the normals only, not the surface. A discontinuity of the texture counts as a slope of 45° to 55°. Where two clear materials with bumps meet, the higher one is used. (colour or texture; default none)
     bump_height: With a bump map: height of white above black; may be negative. (number in m; at least -1e15 and at most 1e15; default none)
     normal_map: Instead of a bump map: a normal map, on a mesh that has texture coordinates. (normal map; default none)
     """
@@ -3510,7 +3514,7 @@ def image(width: int | None = ..., height: int | None = ..., frames_per_second: 
     width: Width of the image. (whole number in pixels; at least 1 and at most 32768; default 1024)
     height: Height of the image. (whole number in pixels; at least 1 and at most 32768; default 768)
     frames_per_second: Frame rate of an animation: frame n, counted from 0, shows the time n / frames_per_second. (number in 1/s; at least 0.001 and at most 100000; default 24)
-    shutter: Times at which the shutter opens and closes, relative to the time of the picture. Motion in between is blurred: transforms of objects and instances, and the camera. ([x, y] in s; at least -1000000 and at most 1000000; default [0, 0])
+    shutter: Times at which the shutter opens and closes, relative to the time of the picture. Motion in between is blurred: transforms of objects and instances, the placements of meshes, and the camera. ([x, y] in s; at least -1000000 and at most 1000000; default [0, 0])
     samples: Samples per pixel. (whole number; at least 1 and at most 16777216; default 64)
     noise: Noise limit: blocks of 8×8 pixels stop early, after at least 32 samples per pixel, once their estimated relative error is at most this; 0 turns this off. (number; at least 0 and at most 1; default 0)
     seed: Seed of the random numbers; a different seed gives different noise. (whole number; zero or more; default 0)
