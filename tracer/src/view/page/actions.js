@@ -10,6 +10,7 @@ import {nameOf} from "./names.js";
 import {choose} from "./palette.js";
 import {joined} from "./pointer.js";
 import {materials, wraps} from "./recipes.js";
+import {following} from "./relations.js";
 import {ballOf} from "./swatch.js";
 import {askStarts, shortMessage} from "./server.js";
 import {filledTo, ownCopy, shapeKinds, shapeOfSeveral, stacked, wrappedTogether} from "./several.js";
@@ -94,7 +95,7 @@ export class Actions {
   }
   // Adds a kind beside what is selected. What fills all of space is added within a box.
   addKind(kind, active = this.active) {
-    const step = (some) => addedKind(this.#scene, some, active, this.phases);
+    const step = (some) => addedKind(this.#scene, some, active, this.phases, this.radius());
     return this.run(step(kind), {otherwise: (error) => (isNode(kind) && /unbounded/.test(error.message) ? step(boxed(kind)) : null)});
   }
   // Replaces everything by a scene to start from; undo brings the old one back.
@@ -118,7 +119,9 @@ export class Actions {
     const kinds = this.catalogue.kinds.filter((kind) => kind.template && (fits(slot.type, kind.type) || (fits(slot.type, "object") && kind.type === "field" && kind.chapter === "shapes")));
     const shapes = shapeKinds(this.#scene).filter((kind) => fits(slot.type, kind.type));
     const kind = await this.#chosen(`Add to ${nameOf(entry, this.catalogue).toLowerCase()}`, [...shapes, ...withoutTwins(kinds, entry)]);
-    if (kind) await this.run(addedTo(this.#scene, entry, slot, kind, this.phases));
+    if (!kind) return;
+    const step = addedTo(this.#scene, entry, slot, kind, this.phases), {before, after} = following(this.catalogue.of(entry), entry, slot.name, true);
+    await this.run({...step, operations: [...before, ...step.operations, ...after]});
   }
   async addToSection(section, button = document.querySelector(`[data-key="${section.key}"]`)) {
     if (section.name === "phases") return this.newMaterial(button);
