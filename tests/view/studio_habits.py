@@ -69,6 +69,24 @@ class Habits(StudioCase):
         self.assertEqual(self.browser.run("studio.scene.redo !== null"), True)
         self.browser.press("Escape")
 
+    # ---- errors
+
+    def test_an_error_goes_when_another_page_changes_the_scene(self):
+        self.open(GLASSES)
+        self.expected = "Failed to load resource"
+        self.select("/tree/over/2/set/of/translate/of")
+        self.click("[data-parameter=radius] .number")
+        self.browser.run("document.activeElement.select()")
+        self.type("-3")
+        self.browser.press("Enter", "Enter", "\r")
+        self.until("document.querySelector('[data-parameter=radius].wrong')")
+        self.browser.run("document.activeElement.blur()")
+        self.assertEqual(self.file(), GLASSES)
+        answer = self.view.post("document", {"label": "elsewhere", "base": self.browser.run("studio.scene.version"), "operations": [
+            {"set": "/tree/over/1/set/of/box/size", "to": "[0.6, 0.5, 0.5]"}]})
+        self.assertEqual(answer.status, 200)
+        self.until("!document.querySelector('.parameter.wrong') && document.querySelector('[data-parameter=radius] input').value === '0.3'", 10)
+
     # ---- labels
 
     def test_a_label_focuses_its_control(self):
@@ -146,15 +164,31 @@ class Habits(StudioCase):
         self.open(NESTED)
         self.until("studio.view.canvas.width > 1")
         box = self.browser.run("document.getElementById('picture').getBoundingClientRect().toJSON()")
-        # The wooden ball on the right.
-        at = box["x"] + box["width"] / 2 + 0.6 / (2 * 5 * 0.268) * box["height"], box["y"] + box["height"] / 2 - 0.3 / (2 * 5 * 0.268) * box["height"]
+        # The wooden ball on the right, beside the handles.
+        at = box["x"] + box["width"] / 2 + 0.85 / (2 * 5 * 0.268) * box["height"], box["y"] + box["height"] / 2 + 0.25 / (2 * 5 * 0.268) * box["height"]
         self.browser.run("document.activeElement.blur()")
         for pointer in ("/tree/over/0", "/tree/over/0/set/of", "/tree/over/0/set/of/translate/of", "/shapes/ball", "/shapes/ball/union/0", "/tree/over/0"):
             self.browser.click(*at)
             self.until(f"studio.selection.active === {json.dumps(pointer)}", 5)
         # Another object is again selected as a whole.
-        self.browser.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+        self.browser.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2 + 8)
         self.until("studio.selection.active === '/tree/over/1'", 5)
+
+    # ---- the outline in the picture
+
+    def test_the_outline_comes_although_the_server_was_busy(self):
+        self.open(GLASSES)
+        self.until("studio.view.canvas.width > 1")
+        self.browser.run("""window.fetch = ((real) => (address, ...more) => {
+            if (!String(address).includes("selected") || window.refused >= 2) return real(address, ...more);
+            window.refused = (window.refused ?? 0) + 1;
+            return Promise.resolve(new Response("finding the selection in the picture takes too long", {status: 409}));
+        })(window.fetch)""")
+        for pointer in ("/tree/over/0/set/of", "/shapes/ball"):
+            self.browser.run("window.refused = 0")
+            self.select(pointer)
+            self.until("window.refused === 2", 10)
+            self.until("document.querySelector('#selected-outline .line') && document.getElementById('selected-said').textContent.includes('outlined')", 10)
 
 
 if __name__ == "__main__":

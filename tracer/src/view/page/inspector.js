@@ -106,10 +106,15 @@ export class Inspector {
       return true;
     } catch (error) {
       if (exchange && !error.isOutdated) return this.#perform(row, {...step, operations: () => [...step.operations(), ...exchange]});
-      row.fail(shortMessage(error));
+      const other = this.#scene.error;
+      row.fail(other ? `First correct the error in the text${other.line ? ` on line ${other.line}` : ""}: ${other.message}` : shortMessage(error));
       this.failed(error);
       return false;
     }
+  }
+  // What was wrong may be right after a change by another page, or be about another part.
+  forgetFailures() {
+    for (const row of this.#sections.flatMap((section) => section.rows)) row.forgetFailure();
   }
   use(catalogue) {
     this.catalogue = catalogue;

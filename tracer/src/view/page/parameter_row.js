@@ -139,6 +139,12 @@ export class ParameterRow {
     this.keyButton.title = text;
     this.keyButton.setAttribute("aria-label", `${this.title}: ${text.charAt(0).toLowerCase()}${text.slice(1)}`);
   }
+  // Drops what was rejected, because the scene has been changed elsewhere since, unless it is still being corrected.
+  forgetFailure() {
+    if (this.element.contains(document.activeElement)) return;
+    this.#rejected = undefined;
+    this.fail("");
+  }
   fail(message) {
     this.problem.textContent = message;
     this.problem.hidden = message === "";

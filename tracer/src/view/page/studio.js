@@ -155,6 +155,7 @@ export class Studio {
       this.#whenOutlined?.();
       this.#whenOutlined = null;
     }
+    if (!isOwn) this.inspector.forgetFailures();
     this.inspector.show();
     this.text.show();
     this.timeline.show();
