@@ -2,6 +2,7 @@
 select the whole first, and parameters that bring and remove others."""
 
 import json
+import math
 import pathlib
 import sys
 import unittest
@@ -98,6 +99,33 @@ class Habits(StudioCase):
         self.click("[data-parameter=by] .about-it")
         self.until("!document.querySelector('[data-parameter=by] .help').hidden")
         self.shoot("habits-help")
+
+    def test_coefficients_are_red_green_and_blue(self):
+        self.open(COLOURED)
+        self.select("/phases/glass")
+        self.until("document.querySelector('[data-parameter=scattering] .tag')")
+        self.assertEqual(self.browser.run("[...document.querySelectorAll('[data-parameter=scattering] .tag')].map((e) => e.textContent)"), ["R", "G", "B"])
+
+    # ---- lights
+
+    def test_a_new_light_fits_the_scene_and_its_copy_lies_beside_it(self):
+        self.open(GLASSES)
+        radius = self.browser.run("studio.view.radius()")
+        self.step(lambda: self.browser.run("studio.actions.addKind(studio.actions.catalogue.named('rectangle', 'light'))"))
+        light = self.scene()["lights"][1]["rectangle"]
+        k = float(f"{radius:.1g}")
+        self.assertEqual(light["centre"], [-2 * k, -2 * k, 3 * k])
+        self.assertEqual(light["width"], k)
+        # The irradiance at the centre is that of a bright sky, π.
+        distance = math.dist(light["centre"], [0, 0, 0])
+        irradiance = light["intensity"] * light["radiance"][0] * light["width"] * light["height"] / distance ** 2
+        self.assertGreater(irradiance, 2.5)
+        self.assertLess(irradiance, 5)
+        self.select("/lights/1")
+        self.step(lambda: self.browser.run("studio.actions.duplicate()"))
+        copy = self.scene()["lights"][2]["rectangle"]
+        self.assertGreater(copy["centre"][0], light["centre"][0])
+        self.assertEqual({**copy, "centre": light["centre"]}, light)
 
     # ---- handles under the pointer, and Escape
 

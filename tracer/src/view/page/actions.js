@@ -256,7 +256,7 @@ export class Actions {
       {id: "replace", text: "Replace with another kind", icon: "replace", keys: "R", isOff: isSettings(entry), run: () => this.replace(entry)},
       {id: "duplicate", text: "Duplicate", icon: "duplicate", keys: "Ctrl+D", isOff: fixed, run: () => this.duplicate()},
       {id: "delete", text: "Delete", icon: "delete", keys: "Delete", isOff: fixed, run: () => this.delete()},
-      {id: "more", text: "More", icon: "more", isOff: isSettings(entry), run: (button) => this.menu(entry, button)},
+      {id: "more", text: "More actions", icon: "more", isOff: isSettings(entry), run: (button) => this.menu(entry, button)},
     ];
   }
   buttonsForMany(entries) {

@@ -200,9 +200,10 @@ export class Inspector {
     if (more === "") return make("p", {class: "about"}, text);
     const rest = make("span", {hidden: true}, ` ${more}`);
     return make("p", {class: "about"}, text, rest, " ", make("button", {
-      type: "button", class: "link", onclick: (event) => {
+      type: "button", class: "link", "aria-label": "More about this kind", onclick: (event) => {
         rest.hidden = !rest.hidden;
         event.currentTarget.textContent = rest.hidden ? "More" : "Less";
+        event.currentTarget.setAttribute("aria-label", `${event.currentTarget.textContent} about this kind`);
       },
     }, "More"));
   }
