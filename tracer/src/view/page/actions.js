@@ -230,7 +230,9 @@ export class Actions {
     if (name) await this.run(namedShape(this.#scene, entry, freeName(name, keysAt(this.#scene.text, "/shapes"))));
   }
   async rename(entry = this.active) {
-    if (!entry?.label || entry.kind === "reference") return;
+    if (entry?.kind === "reference") return;
+    if (entry && !entry.label && isNode(entry)) return this.makeShape(entry); // only what is reusable has a name in the file
+    if (!entry?.label) return this.#announcer.say("Only materials, objects and shapes have names.");
     const name = await askName("Rename", entry.label, "Rename");
     if (name) await this.renameTo(entry, name);
   }
@@ -279,7 +281,7 @@ export class Actions {
       {text: "Remove the wrapper", icon: "unwrap", keys: "Ctrl+Shift+G", isOff: !node || !unwrapped(entry), run: () => this.unwrap(entry)},
       {text: "Make reusable …", icon: "link", isOff: !node || entry.kind === "reference" || !entry.parent, run: () => this.makeShape(entry)},
       {text: "Make a copy of its own", icon: "duplicate", isOff: entry.kind !== "reference", run: () => this.copyShape(entry)},
-      {text: "Rename …", icon: "text", keys: "F2", isOff: !entry.label || entry.kind === "reference", run: () => this.rename(entry)},
+      {text: entry.label ? "Rename …" : "Give it a name …", icon: "text", keys: "F2", isOff: entry.kind === "reference" || (!entry.label && (!node || !entry.parent)), run: () => this.rename(entry)},
       null,
       {text: "Move up", icon: "up", keys: "Alt+↑", isOff: !listed || indexOf(entry) === 0, run: () => this.shift(-1)},
       {text: "Move down", icon: "down", keys: "Alt+↓", isOff: !listed || indexOf(entry) + 1 >= listLength(entry), run: () => this.shift(1)},

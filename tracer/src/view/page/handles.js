@@ -38,7 +38,9 @@ export class Handles {
     this.failed = failed;
   }
   select(entry) {
+    const before = this.#entry;
     this.#entry = entry && hasHandles(entry) ? entry : null;
+    if (this.#drag?.isReleased && this.#entry?.key !== before?.key) this.#drag = null;
     this.show();
   }
   // Where a point is on the page, relative to the canvas, in pixels.
@@ -56,6 +58,7 @@ export class Handles {
     }
     this.#svg.setAttribute("viewBox", `0 0 ${box.width} ${box.height}`);
     Object.assign(this.#svg.style, {width: `${box.width}px`, height: `${box.height}px`});
+    if (this.#drag?.isReleased) return; // until the scene has what the drag has changed
     if (this.#drag) this.#follow();
     else this.#svg.replaceChildren(...this.#handles().map((handle) => this.#drawn(handle)));
   }
@@ -82,14 +85,15 @@ export class Handles {
   // Follows the pointer.
   #run(event, handle, say) {
     const merge = newId("handle"), drawn = handle, grip = event.currentTarget;
+    const drag = {grip, camera: this.#view.camera(), shift: null, isReleased: false};
     let sender = null, last = null, isCancelled = false;
     const aim = () => {
-      if (!last || isCancelled) return;
+      if (!sender || !last || isCancelled) return;
       const value = handle.valueAt(...last);
       if (value === null) return;
       say(value);
-      this.#moveTip(grip, drawn, handle.tipAt(value));
-      sender?.send(value);
+      drag.shift = this.#moveTip(grip, drawn, handle.tipAt(value));
+      sender.send(value);
     };
     // The number from which the drag starts is known once the steps of the drag before are in the scene.
     const begin = async () => {
@@ -98,8 +102,13 @@ export class Handles {
       aim();
     };
     const begun = begin();
-    // Until the scene has what the drag has changed, the handle stays where it was released.
-    const end = async (drag) => {
+    // Until the scene has what the drag has changed, the handle stays where it was released, with the others.
+    const end = async () => {
+      drag.isReleased = true;
+      for (const part of this.#svg.children) {
+        part.classList.remove("resting", "dragged");
+        if (drawn.isWhole && part !== grip && drag.shift) shift(part, drag.shift);
+      }
       await begun;
       await sender.whenDone();
       if (isCancelled) await this.#scene.takeBack(merge).catch((error) => this.failed(error));
@@ -116,23 +125,27 @@ export class Handles {
       cancelled: () => {
         isCancelled = true;
         sender?.stop();
-        this.#moveTip(grip, drawn, drawn.label);
+        drag.shift = null;
+        this.#moveTip(grip, drawn, beyond(drawn.label, shiftOf(grip), 1));
       },
       ended: () => {
-        if (last) return end(this.#drag);
+        if (last) return end();
         this.#drag = null;
         this.show();
       },
       clicked: () => this.#type(handle, merge),
     });
-    if (hasBegun) this.#drag = {grip, camera: this.#view.camera()};
+    if (hasBegun) this.#drag = drag;
   }
-  // Moves what is drawn of a handle so that its end is at a place.
+  // Moves what is drawn of a handle so that its end is at a place. Returns by how much it has moved.
   #moveTip(grip, {label, part, isWhole}, tip) {
-    if (!tip) return;
-    const by = [tip.x - label.x, tip.y - label.y], move = `translate(${by[0]} ${by[1]})`;
+    if (!tip) return null;
+    const shifted = shiftOf(grip), by = [tip.x - label.x - shifted[0], tip.y - label.y - shifted[1]], move = `translate(${by[0]} ${by[1]})`;
     grip.querySelector(".reading").setAttribute("transform", move);
-    if (isWhole) return part.setAttribute("transform", move);
+    if (isWhole) {
+      part.setAttribute("transform", move);
+      return by;
+    }
     const isEnd = (x, y) => Math.hypot(x - label.x, y - label.y) < 1e-3;
     const shapes = part.matches("circle, rect") ? [part] : [...part.children];
     for (const shape of shapes) {
@@ -140,13 +153,14 @@ export class Handles {
       if (shape.tagName === "line") {
         shape.dataset.end ??= String(isEnd(at("x2"), at("y2")));
         if (shape.dataset.end === "true") {
-          shape.setAttribute("x2", tip.x);
-          shape.setAttribute("y2", tip.y);
+          shape.setAttribute("x2", label.x + by[0]);
+          shape.setAttribute("y2", label.y + by[1]);
         }
       } else if ((shape.tagName === "circle" && isEnd(at("cx"), at("cy"))) || (shape.tagName === "rect" && isEnd(at("x") + at("width") / 2, at("y") + at("height") / 2))) {
         shape.setAttribute("transform", move);
       }
     }
+    return by;
   }
   // A handle as it is after the steps that are on their way.
   async #present(handle) {
@@ -387,6 +401,14 @@ class Room {
     if (place) this.take(place);
     return value;
   }
+}
+
+// How far a handle was moved with another one that was dragged.
+const shiftOf = (part) => JSON.parse(part.dataset.shift ?? "[0, 0]");
+function shift(part, [dx, dy]) {
+  const [x, y] = shiftOf(part);
+  part.dataset.shift = JSON.stringify([x + dx, y + dy]);
+  part.setAttribute("transform", `translate(${x + dx} ${y + dy})`);
 }
 
 const beyond = ({x, y}, along, pixels) => ({x: x + along[0] * pixels, y: y + along[1] * pixels});
