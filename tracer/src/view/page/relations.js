@@ -32,7 +32,9 @@ export function followers(relations, present, name, isSet) {
 
 // The operations for the followers of a parameter of an entry: what must be done before, and after, it is set or removed.
 export function following(kind, entry, name, isSet) {
-  const present = new Set([...Object.keys(entry.parameters ?? {}), ...entry.children.map((child) => child.slot)]);
+  // The mass density of a phase stands beside its material, which may have another density.
+  const isOwn = (one) => pointerOf(entry, one) === joined(membersOf(entry), one);
+  const present = new Set([...Object.keys(entry.parameters ?? {}).filter(isOwn), ...entry.children.map((child) => child.slot)]);
   const {removed, added} = followers(kind?.relations, present, name, isSet);
   return {before: removed.map((one) => ({remove: pointerOf(entry, one)})),
     after: Object.entries(added).map(([one, text]) => ({set: joined(membersOf(entry), one), to: text}))};
