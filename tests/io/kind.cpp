@@ -135,6 +135,9 @@ TEST_CASE("what a kind's own code finds is told at the parameter, at its key, or
     CHECK(error_of(text, fail(ParameterError("hue", "is grey"))) == "20: is grey");
     CHECK(error_of(text, fail(ParameterError("hue", "is grey", ParameterError::Place::key))) == "13: is grey");
     CHECK(error_of(text, fail(ParameterError("age", "is missing"))) == "1: the lamp needs \"age\"");
+    // An unknown key is reported first: it may be the one that seems to be missing.
+    CHECK(error_of(R"({"size": 1, "agee": 3})", fail(ParameterError("hue", "requires \"age\""))) ==
+          "13: unknown key \"agee\" in the lamp → age");
     CHECK(error_of(text, fail(std::invalid_argument("is no lamp"))) == "1: is no lamp");
 }
 

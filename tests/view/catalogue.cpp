@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -242,6 +243,32 @@ TEST_CASE("pictures are those of the reference, and no other file is named") {
         if (kind["kind"] == "sphere" && kind["type"] == "field")
             CHECK(kind["picture"] == "pictures/nodes/fields/sphere.jpg");
     CHECK(Json::parse(written_catalogue(vocabulary(), {}))["kinds"][0]["picture"].is_null());
+}
+
+TEST_CASE("parameters that exclude or require others are those of the kind, with initial values") {
+    int requirements = 0;
+    for (const CatalogueKind& kind : vocabulary().kinds()) {
+        const auto check_names = [&](const std::vector<std::string_view>& names) {
+            for (const std::string_view name : names) CHECK_MESSAGE(kind.parameter(name), kind.name << ": " << name);
+        };
+        for (const auto& names : kind.relations.exclusive) check_names(names);
+        check_names(kind.relations.one_of);
+        for (const Requirement& r : kind.relations.requirements) {
+            ++requirements;
+            check_names({r.parameter});
+            check_names(r.any_of);
+            CHECK_MESSAGE((r.initial.empty() || Json::accept(r.initial)), r.parameter);
+        }
+    }
+    CHECK(requirements > 15);
+    const Json catalogue = Json::parse(written_catalogue(vocabulary(), {}));
+    for (const Json& kind : catalogue["kinds"]) {
+        if (kind["kind"] != "clear") continue;
+        const Json medium{{"parameter", "medium"}, {"any_of", {"scale"}}, {"initial", "25"}};
+        const Json& all = kind["relations"]["requirements"];
+        CHECK(std::find(all.begin(), all.end(), medium) != all.end());
+        CHECK(kind["relations"]["one_of"] == Json({"ior", "glass"}));
+    }
 }
 
 }  // namespace test_catalogue

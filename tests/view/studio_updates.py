@@ -252,7 +252,7 @@ class Updates(StudioCase):
         self.browser.press("Escape")
         self.presses("[data-parameter=phase] .choice", "document.querySelector('.menu:popover-open')")
         self.presses(self.named(".menu .item", "paint"), "studio.scene.text.includes('\"set\": {\"phase\": \"paint\"')")
-        self.presses("[data-parameter=phase] .label", "!document.querySelector('[data-parameter=phase] .help').hidden")
+        self.presses("[data-parameter=phase] .about-it", "!document.querySelector('[data-parameter=phase] .help').hidden")
         self.presses("#inspector .node-title", "studio.selection.active === '/tree/over/1/set/of'")
         self.presses("#inspector-head .crumbs button", "studio.selection.active === '/tree'")
         self.presses("#inspector .slot-item", "studio.selection.active === '/tree/over/0'")

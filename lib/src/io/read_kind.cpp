@@ -47,6 +47,7 @@ Value member_of_kind(const Document& document, Value value, std::string_view wha
 }
 
 SceneError located(ObjectReader& reader, const ParameterError& e) {
+    reader.finish();  // a misspelt key explains why another one seems to be missing
     const Value value = reader.required_value(e.parameter());
     return reader.document().error(e.place() == ParameterError::Place::key ? value.key_offset() : value.offset(),
                                    e.what());

@@ -2,76 +2,16 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include "media/measured.hpp"
 #include "scene/material_kinds.hpp"
+#include "scene/parameter_relations.hpp"
 
 namespace phasetree::tracer {
 
 namespace {
 
 using P = ClearParameters;
-
-// A parameter, and whether it was given.
-struct Given {
-    const char* key;
-    bool is;
-};
-
-// Throws if two mutually exclusive parameters are given.
-void refuse_two_of(std::initializer_list<Given> parameters) {
-    const Given* first = nullptr;
-    for (const Given& one : parameters) {
-        if (!one.is) continue;
-        if (first)
-            throw ParameterError(
-                one.key, fmt::format("\"{}\" and \"{}\" cannot be combined; remove one of them", one.key, first->key),
-                ParameterError::Place::key);
-        first = &one;
-    }
-}
-
-// Throws if a parameter is given without the one that it requires.
-void require(const Given& parameter, bool wanted_is_given, const char* wanted) {
-    if (parameter.is && !wanted_is_given)
-        throw ParameterError(parameter.key, fmt::format("\"{}\" requires {}", parameter.key, wanted),
-                             ParameterError::Place::key);
-}
-
-void check(const P& p) {
-    const Given absorption{"absorption", p.absorption.has_value()}, color{"color", p.color.has_value()},
-        spectrum{"absorption_spectrum", p.absorption_spectrum != nullptr},
-        scattering{"scattering", p.scattering.has_value()}, albedo{"albedo", p.albedo.has_value()},
-        path{"mean_free_path", p.mean_free_path.has_value()}, medium{"medium", p.medium.has_value()},
-        scale{"scale", p.scale.has_value()}, emission{"emission", p.emission.has_value()},
-        density{"density", p.density.has_value()}, depth{"density_depth", p.density_depth.has_value()},
-        grid{"density_grid", p.density_grid.has_value()},
-        temperatures{"temperature_grid", p.temperature_grid.has_value()},
-        emission_spectrum{"emission_spectrum", p.emission_spectrum != nullptr};
-    refuse_two_of({absorption, color, spectrum, medium, albedo});
-    refuse_two_of({scattering, medium, albedo});
-    refuse_two_of({density, grid});
-    refuse_two_of({emission_spectrum, temperatures});
-    require(albedo, path.is, "\"mean_free_path\"");
-    require(path, albedo.is, "\"albedo\"");
-    require(medium, scale.is, "\"scale\"");
-    require(scale, medium.is, "\"medium\"");
-    const bool scatters = scattering.is || albedo.is || medium.is;
-    const bool attenuates = scatters || absorption.is || color.is || spectrum.is;
-    const Given anisotropy{"anisotropy", p.anisotropy.has_value()},
-        phase_function{"phase_function", p.phase_function.has_value()};
-    refuse_two_of({anisotropy, phase_function});
-    require(anisotropy, scatters, "\"scattering\"");
-    require(phase_function, scatters, "\"scattering\"");
-    require(density, attenuates, "\"scattering\" or \"absorption\"");
-    require(density, depth.is, "\"density_depth\"");
-    require(depth, density.is, "\"density\"");
-    require(grid, attenuates, "\"scattering\" or \"absorption\"");
-    require(emission_spectrum, emission.is, "\"emission\"");
-    require(temperatures, emission.is, "\"emission\"");
-    require(temperatures, density.is || grid.is, "\"density_grid\" or \"density\"");
-}
 
 // Returns nullopt if all temperatures are 0.
 std::optional<Heat> heat_of(const Voxels& temperatures, float reference) {
@@ -108,7 +48,7 @@ Absorption absorption_of(const P& p) {
 }  // namespace
 
 Medium ClearParameters::interior() const {
-    check(*this);
+    check_relations_of(*this, relations_of_clear());
     ScatteringCoefficients c{.absorption = absorption_of(*this),
                              .scattering = scattering.value_or(glm::vec3(0.0f)),
                              .emission = emission.value_or(glm::vec3(0.0f)),

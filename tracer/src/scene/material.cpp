@@ -6,6 +6,7 @@
 
 #include "phasetree/io/read_kind.hpp"
 #include "scene/material_kinds.hpp"
+#include "scene/parameter_relations.hpp"
 #include "scene/phase_entry.hpp"
 #include "scene/read_parts.hpp"
 #include "shading/metals.hpp"
@@ -27,32 +28,31 @@ std::vector<std::string_view> names_of_glasses() {
 }
 
 std::optional<Bump> BumpParameters::bump() const {
-    if (bump_texture && !bump_height) throw ParameterError("bump", "\"bump\" requires \"bump_height\"");
-    if (bump_height && !bump_texture)
-        throw ParameterError("bump_height", "\"bump_height\" requires \"bump\"", ParameterError::Place::key);
+    check_relations(relations_of_perturbations(), [&](std::string_view name) {
+        return name == "bump" ? bump_texture.has_value() : name == "bump_height" && bump_height.has_value();
+    });
     if (!bump_texture || *bump_height == 0.0f) return std::nullopt;
     return Bump{*bump_texture, *bump_height};
 }
 
 std::optional<NormalPerturbation> PerturbationParameters::perturbation() const {
-    if (bump_texture && normal_map)
-        throw ParameterError("normal_map", "\"bump\" and \"normal_map\" cannot be combined; remove one of them",
-                             ParameterError::Place::key);
+    check_relations(relations_of_perturbations(), [&](std::string_view name) {
+        return name == "bump"          ? bump_texture.has_value()
+               : name == "bump_height" ? bump_height.has_value()
+                                       : normal_map.has_value();
+    });
     if (normal_map) return *normal_map;
     return bump();
 }
 
 std::optional<Grain> GrainParameters::grain(const Number& roughness, std::string_view roughness_key) const {
-    const auto wrong = [](const char* key, const char* what) {
-        throw ParameterError(key, what, ParameterError::Place::key);
-    };
-    if (grain_along && grain_around)
-        wrong("grain_around", "\"grain_along\" and \"grain_around\" cannot be combined; remove one of them");
-    if (grain_through && !grain_around) wrong("grain_through", "\"grain_through\" requires \"grain_around\"");
-    if (!grain_along && !grain_around) {
-        if (grain_aspect) wrong("grain_aspect", "\"grain_aspect\" requires \"grain_along\" or \"grain_around\"");
-        return std::nullopt;
-    }
+    check_relations(relations_of_grain(), [&](std::string_view name) {
+        return name == "grain_along"    ? grain_along.has_value()
+               : name == "grain_around" ? grain_around.has_value()
+               : name == "grain_aspect" ? grain_aspect.has_value()
+                                        : grain_through.has_value();
+    });
+    if (!grain_along && !grain_around) return std::nullopt;
     const char* const key = grain_along ? "grain_along" : "grain_around";
     if (is_smooth(greatest_of(roughness)))
         throw ParameterError(
@@ -67,10 +67,7 @@ std::optional<Grain> GrainParameters::grain(const Number& roughness, std::string
 }
 
 std::optional<Dispersion> ClearParameters::dispersion() const {
-    if (glass && (ior || abbe_number))
-        throw ParameterError(
-            "glass", "\"glass\" cannot be combined with \"ior\" or \"abbe_number\"; remove either \"glass\" or these",
-            ParameterError::Place::key);
+    check_relations_of(*this, relations_of_clear());
     if (!glass && !ior) throw ParameterError("ior", "is missing");
     if (!glass && !abbe_number) return std::nullopt;
     const char* const key = glass ? "glass" : "abbe_number";
@@ -97,21 +94,12 @@ Clear ClearParameters::made() const {
 }
 
 Conductor ConductorParameters::made() const {
-    if (metal && (eta || k || reflectance))
-        throw ParameterError(
-            "metal",
-            "\"metal\" cannot be combined with \"eta\", \"k\" or \"reflectance\"; remove either \"metal\" or these",
-            ParameterError::Place::key);
+    check_relations_of(*this, relations_of_conductor());
     if (metal) {
         const Metal found = find_metal(*metal).value();
         return {found.eta, found.k, roughness, film(), found.spectrum, perturbation(), grain(roughness)};
     }
     if (reflectance) {
-        if (eta || k)
-            throw ParameterError(
-                "reflectance",
-                "\"reflectance\" cannot be combined with \"eta\" or \"k\"; remove either \"reflectance\" or these",
-                ParameterError::Place::key);
         if (film_thickness)
             throw ParameterError("film_thickness",
                                  "a metal with a \"reflectance\" cannot have a film; give \"eta\" and \"k\" instead",
@@ -120,10 +108,8 @@ Conductor ConductorParameters::made() const {
         coloured.reflectance = reflectance;
         return coloured;
     }
-    if (!eta && !k)
+    if (!eta)
         throw std::invalid_argument("the conductor material needs \"metal\", \"eta\" and \"k\", or \"reflectance\"");
-    if (!eta) throw ParameterError("eta", "is missing");
-    if (!k) throw ParameterError("k", "is missing");
     return {*eta, *k, roughness, film(), {}, perturbation(), grain(roughness)};
 }
 
@@ -157,8 +143,7 @@ Principled PrincipledParameters::made() const {
 }
 
 ThinGlass ThinGlassParameters::made() const {
-    if (color_distance && !thickness)
-        throw ParameterError("color_distance", "\"color_distance\" requires \"thickness\"", ParameterError::Place::key);
+    check_relations_of(*this, relations_of_thin_glass());
     return {ior, color, thickness ? *thickness / color_distance.value_or(1.0f) : 1.0f, roughness, perturbation()};
 }
 

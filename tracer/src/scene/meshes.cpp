@@ -7,14 +7,16 @@
 #include "scene/mesh_kinds.hpp"
 #include "scene/mesh_tangents.hpp"
 #include "scene/meshes_alone.hpp"
+#include "scene/parameter_relations.hpp"
 #include "scene/read_parts.hpp"
 #include "scene/unread_file.hpp"
 
 namespace phasetree::tracer {
 
 std::optional<Opacity> OpacityParameters::opacity() const {
-    if (!opacity_number && opacity_cutoff)
-        throw ParameterError("opacity_cutoff", "\"opacity_cutoff\" requires \"opacity\"", ParameterError::Place::key);
+    check_relations(relations_of_opacity(), [&](std::string_view name) {
+        return name == "opacity" ? opacity_number.has_value() : opacity_cutoff.has_value();
+    });
     if (!opacity_number) return std::nullopt;
     return Opacity{*opacity_number, opacity_cutoff};
 }

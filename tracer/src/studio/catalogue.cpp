@@ -40,6 +40,14 @@ Json parameter_json(const KindParameter& p) {
     return json;
 }
 
+Json relations_json(const ParameterRelations& relations) {
+    Json json{{"exclusive", relations.exclusive}, {"requirements", Json::array()}, {"one_of", relations.one_of}};
+    for (const Requirement& r : relations.requirements)
+        json["requirements"].push_back({{"parameter", r.parameter}, {"any_of", r.any_of}, {"initial", r.initial}});
+    json["initial"] = relations.initial;
+    return json;
+}
+
 // "smooth_union" becomes "Smooth union".
 std::string title_of(const CatalogueKind& kind) {
     std::string title = kind.name;
@@ -77,6 +85,7 @@ Json kind_json(const CatalogueKind& kind, const std::optional<std::filesystem::p
     if (const KindParameter* lone = kind.lone_parameter()) json["alone"] = lone->name;
     json["parameters"] = Json::array();
     json["slots"] = Json::array();
+    json["relations"] = relations_json(kind.relations);
     for (const KindParameter& p : kind.parameters) {
         if (p.control == "slot") {
             Json slot{{"name", p.name}};

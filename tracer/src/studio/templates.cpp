@@ -156,7 +156,11 @@ constexpr Preferred preferred[] = {
     {"sun", "direction", "[-1, -1, 2]"},
     {"portal", "centre", "[0, 3, 1]"},
     {"portal", "target", "[0, 0, 1]"},
-    {"rectangle", "centre", "[-2, -2, 3]"},
+    {"light/rectangle", "centre", "[-2, -2, 3]"},
+    {"light/rectangle", "width", "1"},
+    {"light/rectangle", "height", "1"},
+    {"light/rectangle", "radiance", "[1, 1, 1]"},
+    {"light/rectangle", "intensity", "60"},  // as bright as daylight in the scene's centre
     {"sphere", "centre", "[-2, -2, 3]"},
     {"spheres", "centres", "[[-2, -2, 3], [2, -2, 3]]"},
     {"", "target", "[0, 0, 0]"},

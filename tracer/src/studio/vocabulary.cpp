@@ -200,6 +200,7 @@ CatalogueKind kind_of(const KindPage& entry, const std::string& chapter) {
     kind.has_short_form = is_node && is_one && entry.list_alone;
     const auto names = materials_for_meshes_only();
     kind.for_meshes_only = kind.type == "material" && std::find(names.begin(), names.end(), entry.name) != names.end();
+    kind.relations = relations_of(kind.type, kind.name, [&](std::string_view key) { return kind.parameter(key); });
     return kind;
 }
 

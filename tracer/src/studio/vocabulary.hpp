@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/parameter_relations.hpp"
+
 namespace phasetree::tracer::studio {
 
 /// What a slot accepts. A slot is a parameter that holds other nodes, such as the operands (fields) of the node
@@ -51,6 +53,7 @@ struct CatalogueKind {
     bool has_short_form = false;
     bool for_meshes_only = false;  ///< whether it is a material that phases cannot have
     std::vector<KindParameter> parameters;
+    ParameterRelations relations;
 
     /// The parameter with this key, in British or American spelling (colour, color); null if there is none.
     const KindParameter* parameter(std::string_view key) const;

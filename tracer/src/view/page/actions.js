@@ -10,6 +10,7 @@ import {nameOf} from "./names.js";
 import {choose} from "./palette.js";
 import {joined} from "./pointer.js";
 import {materials, wraps} from "./recipes.js";
+import {following} from "./relations.js";
 import {ballOf} from "./swatch.js";
 import {askStarts, shortMessage} from "./server.js";
 import {filledTo, ownCopy, shapeKinds, shapeOfSeveral, stacked, wrappedTogether} from "./several.js";
@@ -94,7 +95,7 @@ export class Actions {
   }
   // Adds a kind beside what is selected. What fills all of space is added within a box.
   addKind(kind, active = this.active) {
-    const step = (some) => addedKind(this.#scene, some, active, this.phases);
+    const step = (some) => addedKind(this.#scene, some, active, this.phases, this.radius());
     return this.run(step(kind), {otherwise: (error) => (isNode(kind) && /unbounded/.test(error.message) ? step(boxed(kind)) : null)});
   }
   // Replaces everything by a scene to start from; undo brings the old one back.
@@ -118,7 +119,9 @@ export class Actions {
     const kinds = this.catalogue.kinds.filter((kind) => kind.template && (fits(slot.type, kind.type) || (fits(slot.type, "object") && kind.type === "field" && kind.chapter === "shapes")));
     const shapes = shapeKinds(this.#scene).filter((kind) => fits(slot.type, kind.type));
     const kind = await this.#chosen(`Add to ${nameOf(entry, this.catalogue).toLowerCase()}`, [...shapes, ...withoutTwins(kinds, entry)]);
-    if (kind) await this.run(addedTo(this.#scene, entry, slot, kind, this.phases));
+    if (!kind) return;
+    const step = addedTo(this.#scene, entry, slot, kind, this.phases), {before, after} = following(this.catalogue.of(entry), entry, slot.name, true);
+    await this.run({...step, operations: [...before, ...step.operations, ...after]});
   }
   async addToSection(section, button = document.querySelector(`[data-key="${section.key}"]`)) {
     if (section.name === "phases") return this.newMaterial(button);
@@ -227,7 +230,9 @@ export class Actions {
     if (name) await this.run(namedShape(this.#scene, entry, freeName(name, keysAt(this.#scene.text, "/shapes"))));
   }
   async rename(entry = this.active) {
-    if (!entry?.label || entry.kind === "reference") return;
+    if (entry?.kind === "reference") return;
+    if (entry && !entry.label && isNode(entry)) return this.makeShape(entry); // only what is reusable has a name in the file
+    if (!entry?.label) return this.#announcer.say("Only materials, objects and shapes have names.");
     const name = await askName("Rename", entry.label, "Rename");
     if (name) await this.renameTo(entry, name);
   }
@@ -253,7 +258,7 @@ export class Actions {
       {id: "replace", text: "Replace with another kind", icon: "replace", keys: "R", isOff: isSettings(entry), run: () => this.replace(entry)},
       {id: "duplicate", text: "Duplicate", icon: "duplicate", keys: "Ctrl+D", isOff: fixed, run: () => this.duplicate()},
       {id: "delete", text: "Delete", icon: "delete", keys: "Delete", isOff: fixed, run: () => this.delete()},
-      {id: "more", text: "More", icon: "more", isOff: isSettings(entry), run: (button) => this.menu(entry, button)},
+      {id: "more", text: "More actions", icon: "more", isOff: isSettings(entry), run: (button) => this.menu(entry, button)},
     ];
   }
   buttonsForMany(entries) {
@@ -276,7 +281,7 @@ export class Actions {
       {text: "Remove the wrapper", icon: "unwrap", keys: "Ctrl+Shift+G", isOff: !node || !unwrapped(entry), run: () => this.unwrap(entry)},
       {text: "Make reusable …", icon: "link", isOff: !node || entry.kind === "reference" || !entry.parent, run: () => this.makeShape(entry)},
       {text: "Make a copy of its own", icon: "duplicate", isOff: entry.kind !== "reference", run: () => this.copyShape(entry)},
-      {text: "Rename …", icon: "text", keys: "F2", isOff: !entry.label || entry.kind === "reference", run: () => this.rename(entry)},
+      {text: entry.label ? "Rename …" : "Give it a name …", icon: "text", keys: "F2", isOff: entry.kind === "reference" || (!entry.label && (!node || !entry.parent)), run: () => this.rename(entry)},
       null,
       {text: "Move up", icon: "up", keys: "Alt+↑", isOff: !listed || indexOf(entry) === 0, run: () => this.shift(-1)},
       {text: "Move down", icon: "down", keys: "Alt+↓", isOff: !listed || indexOf(entry) + 1 >= listLength(entry), run: () => this.shift(1)},

@@ -44,6 +44,8 @@ function addTo(map, entry, parent, text) {
   entry.phases = [...new Set([...entry.phases, ...entry.children.flatMap((child) => child.phases)])];
 }
 
+const operationsOf = ({operations}) => (typeof operations === "function" ? operations() : operations);
+
 export class SceneDocument extends EventTarget {
   text = "";
   outline = [];
@@ -61,6 +63,8 @@ export class SceneDocument extends EventTarget {
   #isFollowed = false;
   #textVersion = 0;     // of the text and the outline that the page has
   #own = new Set();     // versions made by this page
+  #others = 0;          // changes of the text by others
+  #gesture = null;      // the last one that sent a step: {merge, and the text and #others before it}
   #wake = () => {};     // ends a pause of follow()
 
   entry(pointer) {
@@ -115,6 +119,7 @@ export class SceneDocument extends EventTarget {
     const hasNewText = "text" in told && told.text !== this.text; // the server leaves out a text that the page has
     const isOwn = this.isBusy || this.isChangedHere || this.#own.has(told.version) || !hasNewText;
     if (hasNewText) this.isChangedHere = false;
+    if (!isOwn) this.#others += 1;
     for (const member of ["version", "error", "undo", "redo", "saved", "file"]) this[member] = told[member];
     this.saveError = told.save_error ?? null;
     if ("text" in told) {
@@ -132,7 +137,8 @@ export class SceneDocument extends EventTarget {
     this.dispatchEvent(new CustomEvent("change", {detail: {isFirst, isOwn}}));
   }
   // Sends a step and resolves when the page shows it. `base` is the version that it changes, if it is not the present one. A step that waits is replaced by a later one of the same gesture,
-  // so that a fast mouse does not build up a queue; `merge` names the gesture.
+  // so that a fast mouse does not build up a queue; `merge` names the gesture. `operations` may be a function, which is
+  // called when the step is sent.
   perform({label, operations, base = null, merge = null, strict = true}) {
     return new Promise((done, failed) => {
       const last = this.#waiting.at(-1);
@@ -151,7 +157,8 @@ export class SceneDocument extends EventTarget {
     this.#isSending = true;
     while (this.#waiting.length > 0) {
       const {done, failed, ...step} = this.#waiting.shift();
-      await this.#run(() => sendStep({...step, base: step.base ?? this.version}), done, failed);
+      if (step.merge !== null && step.merge !== this.#gesture?.merge) this.#gesture = {merge: step.merge, text: this.text, others: this.#others};
+      await this.#run(() => sendStep({...step, operations: operationsOf(step), base: step.base ?? this.version}), done, failed);
     }
     this.#isSending = false;
   }
@@ -179,6 +186,18 @@ export class SceneDocument extends EventTarget {
         setTimeout(done, end - performance.now());
       });
     if (this.version < version) await this.#takeNext(askDocument(0, this.#textVersion));
+  }
+  // Takes back all steps of a gesture, so that the history has none of them.
+  async takeBack(merge) {
+    const dropped = this.#waiting.filter((step) => step.merge === merge);
+    this.#waiting = this.#waiting.filter((step) => step.merge !== merge);
+    for (const tell of dropped.flatMap((step) => step.done)) tell(this.version);
+    await this.whenIdle();
+    const before = this.#gesture;
+    if (before?.merge !== merge || this.text === before.text) return;
+    if (this.#others !== before.others) throw new Error("The scene was changed elsewhere meanwhile, so the drag stays. Undo takes it back.");
+    // The server drops a step that ends where its gesture began.
+    await this.perform({label: "Cancel", operations: [{text: before.text}], merge, strict: false});
   }
   goBack() {
     return new Promise((done, failed) => this.#run(undo, [done], [failed]));

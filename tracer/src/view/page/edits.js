@@ -124,10 +124,21 @@ export function boxed(kind) {
 
 const lists = {light: "lights", mesh: "meshes", statement: "expect"};
 
-// Adds a kind of any type where it belongs.
-export function addedKind(scene, kind, active, phases) {
+const scaledBy = (value, k) => (Array.isArray(value) ? value.map((item) => scaledBy(item, k)) : typeof value === "number" ? Number((value * k).toPrecision(6)) : value);
+
+// A light for a scene of a radius: as far away, as large and as bright there as the template is in a scene of radius 1.
+function fittedLight(kind, value, radius) {
+  const k = Number(radius.toPrecision(1)), isSmall = ["point", "spot", "ies"].includes(kind.kind), members = value[kind.kind];
+  const factors = Object.fromEntries(kind.parameters.filter(({unit}) => unit === "m").map(({name}) => [name, k]));
+  if (isSmall) factors.intensity = k * k; // others have a radiance, which distances do not change
+  return {[kind.kind]: Object.fromEntries(Object.entries(members).map(([name, member]) => [name, scaledBy(member, factors[name] ?? 1)]))};
+}
+
+// Adds a kind of any type where it belongs. `radius` is that of the scene.
+export function addedKind(scene, kind, active, phases, radius = 1) {
   if (kind.type === "field" || kind.type === "object") return addedNode(scene, kind, active, phases);
-  const value = templateOf(kind, phases), label = `Add ${kind.title.toLowerCase()}`;
+  const template = templateOf(kind, phases), label = `Add ${kind.title.toLowerCase()}`;
+  const value = kind.type === "light" ? fittedLight(kind, template, radius) : template;
   if (kind.type === "material") return addedPhase(scene, freeName(kind.kind, keysAt(scene.text, "/phases")), value);
   if (kind.type === "camera") return {label, operations: [{set: "/camera", to: written(value)}], select: ["/camera"]};
   if (kind.type === "render") return {label, operations: [{set: "/render", to: written(value)}], select: ["/render"]};
@@ -199,13 +210,23 @@ function shifted(value, by) {
 // For a `set` node, the translation is inserted below it, around the field, so that a later move finds and extends it.
 const shiftedNode = (value, by) => (value?.set?.of ? {set: {...value.set, of: shifted(value.set.of, by)}} : shifted(value, by));
 
+// A copy of a light or a mesh, at another place if it has one.
+function shiftedPart(value, distance) {
+  const isPoint = (item) => Array.isArray(item) && item.length === 3 && item.every((x) => typeof x === "number");
+  const shift = (item) => (isPoint(item) ? [Number((item[0] + distance).toPrecision(6)), item[1], item[2]] : Array.isArray(item) ? item.map(shift) : item);
+  const places = ["centre", "center", "centres", "centers", "position", "translate"];
+  const [[kind, members]] = Object.entries(value);
+  if (members === null || typeof members !== "object" || Array.isArray(members)) return value;
+  return {[kind]: Object.fromEntries(Object.entries(members).map(([name, item]) => [name, places.includes(name) ? shift(item) : item]))};
+}
+
 export function duplicated(scene, entry, distance) {
   const label = "Duplicate", value = parsed(textAt(scene.text, entry.pointer));
   if (entry.parent && isSection(entry.parent) && !isInList(entry)) {
     const name = freeName(`${entry.label} copy`, keysAt(scene.text, `/${entry.parent.name}`)), pointer = joined("", entry.parent.name, name);
     return {label, operations: [{insert: pointer, value: written(value)}], select: [pointer]};
   }
-  const copy = isNode(entry) ? shiftedNode(value, [distance, 0, 0]) : value;
+  const copy = isNode(entry) ? shiftedNode(value, [distance, 0, 0]) : ["light", "mesh"].includes(entry.type) ? shiftedPart(value, distance) : value;
   if (isInList(entry)) {
     const next = indexOf(entry) + 1, pointer = `${listOf(entry)}/${next}`;
     return {label, operations: [{insert: next < listLength(entry) ? pointer : `${listOf(entry)}/-`, value: written(copy)}], select: [pointer]};

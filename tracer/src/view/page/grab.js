@@ -3,6 +3,7 @@
 import {newId} from "./dom.js";
 import {GrabPanel} from "./grab_panel.js";
 import {place} from "./picture.js";
+import {onEscape} from "./press.js";
 import {dragTo, grabAt, pause, shortMessage} from "./server.js";
 
 const tolerated = 4;   // pixels that a click may move
@@ -19,6 +20,8 @@ async function grabbedAt(x, y) {
     }
   }
 }
+
+class Cancelled extends Error {}
 
 export class Grab {
   #canvas;
@@ -104,11 +107,18 @@ export class Grab {
     };
     const end = (now) => {
       if (now.pointerId !== press.id) return;
+      stopEscape();
       for (const name of ["pointermove", "pointerup", "pointercancel"]) this.#canvas.removeEventListener(name, name === "pointermove" ? move : end);
       this.#press = null;
       if (!press.isGrab && now.type === "pointerup") this.inspect(now);
       else this.#finish();
     };
+    const stopEscape = onEscape(() => {
+      const merge = this.#point?.merge;
+      end({pointerId: press.id, type: "keydown"});
+      this.release();
+      if (merge) this.#scene.takeBack(merge).catch((error) => this.#announcer.say(shortMessage(error), {isWrong: true}));
+    });
     this.#canvas.addEventListener("pointermove", move);
     this.#canvas.addEventListener("pointerup", end);
     this.#canvas.addEventListener("pointercancel", end);
@@ -169,6 +179,7 @@ export class Grab {
       point.follows = told.follows;
       this.#mark.dataset.follows = String(told.follows);
       const changed = Object.entries(told.values).filter(([pointer, value]) => value !== point.values[pointer]);
+      if (this.#point !== point) throw new Cancelled(); // by Escape
       point.values = told.values;
       this.#panel.showValues(point.values);
       this.#showMark();
@@ -178,7 +189,7 @@ export class Grab {
         point.text = this.#scene.text;
       }
     } catch (error) {
-      this.#announcer.say(shortMessage(error), {isWrong: true});
+      if (!(error instanceof Cancelled)) this.#announcer.say(shortMessage(error), {isWrong: true});
     }
     this.#isBusy = false;
     if (this.#isAgain) this.#solve();

@@ -2,6 +2,7 @@
 import {make, newId} from "./dom.js";
 import {closeWith, openBeside} from "./menu.js";
 import {NumberField, VectorField} from "./number_field.js";
+import {onEscape} from "./press.js";
 
 const plus = (a, b) => a.map((x, i) => x + b[i]);
 const times = (a, k) => a.map((x) => x * k);
@@ -47,8 +48,8 @@ export function rounded(value, unit, event) {
 }
 
 // Follows the pointer from a press until it is released. `moved(by, event)` gets pixels; Shift moves ten times as finely.
-// A press without a drag is a click.
-export function follow(press, {moved, ended, clicked}) {
+// A press without a drag is a click. Escape ends the drag and calls `cancelled` before `ended`.
+export function follow(press, {moved, ended, clicked, cancelled}) {
   if (press.button !== 0) return false;
   press.preventDefault();
   press.stopPropagation();
@@ -62,12 +63,15 @@ export function follow(press, {moved, ended, clicked}) {
     if (isDragged) moved(by, event);
   };
   const end = (event) => {
+    stopEscape();
     grip.removeEventListener("pointermove", move);
     grip.removeEventListener("pointerup", end);
     grip.removeEventListener("pointercancel", end);
+    if (event.type === "keydown" && isDragged) cancelled();
     ended();
     if (!isDragged && event.type === "pointerup") clicked();
   };
+  const stopEscape = onEscape(end);
   grip.setPointerCapture(press.pointerId);
   grip.addEventListener("pointermove", move);
   grip.addEventListener("pointerup", end);

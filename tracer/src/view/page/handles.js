@@ -1,6 +1,6 @@
 // Handles over the picture for the selection: arrows that move it along the axes, a disc that moves it in the plane of
-// the picture, a ring that rotates it, squares that scale it, and dots for its points and lengths. The picture follows
-// while they are dragged. A click on one types its numbers.
+// the picture, a ring that rotates it, squares that scale it, and dots for its points and lengths. A handle follows the
+// pointer at once while it is dragged, and the picture follows when it is rendered. A click on one types its numbers.
 import {inverseTransformVector, mapTo, transformPoint, transformVector, valueOf, writtenValueOf} from "./affine.js";
 import {canProject, projected} from "./camera.js";
 import {makeSvg, newId} from "./dom.js";
@@ -12,7 +12,7 @@ import {titleOf} from "./parameter_row.js";
 import {joined} from "./pointer.js";
 import {chainOf, isNode, pointerOf} from "./structure.js";
 
-const arrow = 64, square = 44, beside = 30; // pixels
+const arrow = 64, square = 44, beside = 30, apart = 18; // pixels
 const axes = [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]];
 const diagonals = [[1, 1], [-1, 1], [-1, -1], [0, 1]].map(([x, y]) => [x / Math.hypot(x, y), y / Math.hypot(x, y)]);
 const plus = (a, b) => a.map((x, i) => x + b[i]);
@@ -38,7 +38,9 @@ export class Handles {
     this.failed = failed;
   }
   select(entry) {
+    const before = this.#entry;
     this.#entry = entry && hasHandles(entry) ? entry : null;
+    if (this.#drag?.isReleased && this.#entry?.key !== before?.key) this.#drag = null;
     this.show();
   }
   // Where a point is on the page, relative to the canvas, in pixels.
@@ -56,15 +58,20 @@ export class Handles {
     }
     this.#svg.setAttribute("viewBox", `0 0 ${box.width} ${box.height}`);
     Object.assign(this.#svg.style, {width: `${box.width}px`, height: `${box.height}px`});
+    if (this.#drag?.isReleased) return; // until the scene has what the drag has changed
     if (this.#drag) this.#follow();
     else this.#svg.replaceChildren(...this.#handles().map((handle) => this.#drawn(handle)));
   }
-  // A handle has: name, part (SVG), value, valueAt(by, event), operations(value), and where its label is.
+  // A handle has: name, part (SVG), value, valueAt(by, event), operations(value), and where its label is; tipAt(value) is
+  // where its end is for a value, and isWhole says that all of it moves with its end.
   #handles() {
     if (!isNode(this.#entry)) return this.#places([this.#entry]);
     const chain = chainOf(this.#entry).filter(isNode), mover = chain.find((entry) => entry.kind === "translate") ?? null;
     if (chain.at(-1).kind === "plane" && !mover) return this.#offset(chain.at(-1));
-    return [...this.#ring(chain), ...this.#arrows(chain, mover), ...this.#squares(chain), ...this.#places(chain)];
+    // Dots are where their numbers are; the others make room for them.
+    const dots = this.#places(chain), room = new Room(dots.map(({label}) => label));
+    const arrows = this.#arrows(chain, mover, room), squares = this.#squares(chain, room);
+    return [...this.#ring(chain, room), ...arrows, ...squares, ...dots];
   }
   #drawn(handle) {
     const {name, part, label, value} = handle;
@@ -77,20 +84,37 @@ export class Handles {
   }
   // Follows the pointer.
   #run(event, handle, say) {
-    const merge = newId("handle");
-    let send = null, last = null;
+    const merge = newId("handle"), drawn = handle, grip = event.currentTarget;
+    const drag = {grip, camera: this.#view.camera(), shift: null, isReleased: false};
+    let sender = null, last = null, isCancelled = false;
     const aim = () => {
-      if (!send || !last) return;
+      if (!sender || !last || isCancelled) return;
       const value = handle.valueAt(...last);
       if (value === null) return;
       say(value);
-      send(value);
+      drag.shift = this.#moveTip(grip, drawn, handle.tipAt(value));
+      sender.send(value);
     };
     // The number from which the drag starts is known once the steps of the drag before are in the scene.
     const begin = async () => {
       handle = await this.#present(handle);
-      send = this.#sender(handle, merge);
+      sender = this.#sender(handle, merge);
       aim();
+    };
+    const begun = begin();
+    // Until the scene has what the drag has changed, the handle stays where it was released, with the others.
+    const end = async () => {
+      drag.isReleased = true;
+      for (const part of this.#svg.children) {
+        part.classList.remove("resting", "dragged");
+        if (drawn.isWhole && part !== grip && drag.shift) shift(part, drag.shift);
+      }
+      await begun;
+      await sender.whenDone();
+      if (isCancelled) await this.#scene.takeBack(merge).catch((error) => this.failed(error));
+      if (this.#drag !== drag) return;
+      this.#drag = null;
+      this.show();
     };
     const hasBegun = follow(event, {
       moved: (by, now) => {
@@ -98,15 +122,45 @@ export class Handles {
         last = [by, now];
         aim();
       },
+      cancelled: () => {
+        isCancelled = true;
+        sender?.stop();
+        drag.shift = null;
+        this.#moveTip(grip, drawn, beyond(drawn.label, shiftOf(grip), 1));
+      },
       ended: () => {
+        if (last) return end();
         this.#drag = null;
         this.show();
       },
       clicked: () => this.#type(handle, merge),
     });
-    if (!hasBegun) return;
-    this.#drag = {grip: event.currentTarget, camera: this.#view.camera()};
-    begin();
+    if (hasBegun) this.#drag = drag;
+  }
+  // Moves what is drawn of a handle so that its end is at a place. Returns by how much it has moved.
+  #moveTip(grip, {label, part, isWhole}, tip) {
+    if (!tip) return null;
+    const shifted = shiftOf(grip), by = [tip.x - label.x - shifted[0], tip.y - label.y - shifted[1]], move = `translate(${by[0]} ${by[1]})`;
+    grip.querySelector(".reading").setAttribute("transform", move);
+    if (isWhole) {
+      part.setAttribute("transform", move);
+      return by;
+    }
+    const isEnd = (x, y) => Math.hypot(x - label.x, y - label.y) < 1e-3;
+    const shapes = part.matches("circle, rect") ? [part] : [...part.children];
+    for (const shape of shapes) {
+      const at = (name) => Number(shape.getAttribute(name));
+      if (shape.tagName === "line") {
+        shape.dataset.end ??= String(isEnd(at("x2"), at("y2")));
+        if (shape.dataset.end === "true") {
+          shape.setAttribute("x2", label.x + by[0]);
+          shape.setAttribute("y2", label.y + by[1]);
+        }
+      } else if ((shape.tagName === "circle" && isEnd(at("cx"), at("cy"))) || (shape.tagName === "rect" && isEnd(at("x") + at("width") / 2, at("y") + at("height") / 2))) {
+        shape.setAttribute("transform", move);
+      }
+    }
+    return by;
   }
   // A handle as it is after the steps that are on their way.
   async #present(handle) {
@@ -115,30 +169,34 @@ export class Handles {
     return this.#handles().find(({name}) => name === handle.name) ?? handle;
   }
   // A step is made only after the one before it has been accepted, because the first may wrap what the others change.
+  // whenDone() resolves when nothing is left to send; stop() drops what has not been sent.
   #sender(handle, merge) {
-    let next = null, isBusy = false;
-    const send = async () => {
-      if (isBusy || next === null) return;
-      const {value, gesture} = next;
-      next = null;
-      isBusy = true;
-      await this.#scene.perform({label: handle.step, operations: handle.operations(value), merge: gesture}).catch((error) => this.failed(error));
-      isBusy = false;
-      send();
+    let next = null, sending = null;
+    const sendAll = async () => {
+      while (next !== null) {
+        const {value, gesture} = next;
+        next = null;
+        await this.#scene.perform({label: handle.step, operations: handle.operations(value), merge: gesture}).catch((error) => this.failed(error));
+      }
+      sending = null;
     };
-    return (value, gesture = merge) => {
-      next = {value, gesture};
-      send();
+    return {
+      send: (value, gesture = merge) => {
+        next = {value, gesture};
+        sending ??= sendAll();
+      },
+      whenDone: async () => { while (sending) await sending; },
+      stop: () => { next = null; },
     };
   }
   #type(handle, merge) {
     const grip = [...this.#svg.children].find((part) => part.dataset.handle === handle.name) ?? this.#svg;
-    let send = this.#sender(handle, merge);
+    let sender = this.#sender(handle, merge);
     const field = typeNumbers(grip, {title: titleOf(handle.name), value: handle.value, least: handle.least, unit: handle.unit, scale: Math.abs([handle.value].flat()[0]) || 1},
-      (value, gesture) => send(value, gesture ?? merge));
+      (value, gesture) => sender.send(value, gesture ?? merge));
     this.#present(handle).then((now) => {
       if (now === handle) return;
-      send = this.#sender(now, merge);
+      sender = this.#sender(now, merge);
       field.show(now.value);
     });
   }
@@ -179,7 +237,7 @@ export class Handles {
   #inside(chain, kinds) {
     return chain.find((entry, i) => i === chain.length - 1 || !kinds.includes(entry.kind));
   }
-  #arrows(chain, mover) {
+  #arrows(chain, mover, room) {
     const around = mover ? null : this.#inside(chain, ["set"]), target = mover ?? around, from = mover ? valueOf(mover, "by") : [0, 0, 0];
     const origin = transformPoint(mapTo(target, Boolean(mover)), [0, 0, 0]), centre = this.#seen(origin), outer = mapTo(target, false);
     if (!centre || !Array.isArray(from)) return [];
@@ -188,17 +246,21 @@ export class Handles {
       const by = inverseTransformVector(outer, vector);
       return by && from.map((c, i) => (Math.abs(by[i]) < 1e-9 * Math.hypot(...by) ? c : rounded(c + by[i], centre.unit, event)));
     };
+    // Where the end of an arrow is when the selection has moved. Without a node that moves it, the origin moves by the value.
+    const moves = (direction, length) => (value) => this.#seen(plus(transformPoint(outer, value), times(direction, length * centre.unit)));
+    room.take(centre);
     const parts = axes.map(([name, direction]) => {
-      const tip = this.#seen(plus(origin, times(direction, arrow * centre.unit)));
+      const endAt = (length) => this.#seen(plus(origin, times(direction, length * centre.unit)));
+      const length = room.choose([1, 1.35, 1.7, 2.05].map((k) => k * arrow), endAt), tip = endAt(length);
       if (!tip || Math.hypot(tip.x - centre.x, tip.y - centre.y) < 8) return null;
       const valueAt = ([dx, dy], event) => {
-        const by = followed((p) => this.#seen(p), plus(origin, times(direction, arrow * centre.unit)), [direction], {x: tip.x + dx, y: tip.y + dy});
+        const by = followed((p) => this.#seen(p), plus(origin, times(direction, length * centre.unit)), [direction], {x: tip.x + dx, y: tip.y + dy});
         return by && moved(times(direction, by[0]), event);
       };
-      return {...common, name: `move ${name}`, look: `axis ${name}`, label: tip, part: stem(centre, tip), valueAt};
+      return {...common, name: `move ${name}`, look: `axis ${name}`, label: tip, part: stem(centre, tip), valueAt, tipAt: moves(direction, length), isWhole: true};
     });
     const valueAt = ([dx, dy], event) => moved(plus(times(centre.axes.right, dx * centre.unit), times(centre.axes.up, -dy * centre.unit)), event);
-    return [...parts.filter(Boolean), {...common, name: "move", look: "plane", label: centre, part: circle(centre, 9), valueAt}];
+    return [...parts.filter(Boolean), {...common, name: "move", look: "plane", label: centre, part: circle(centre, 9), valueAt, tipAt: moves([0, 0, 0], 0), isWhole: true}];
   }
   // A plane moves along its normal.
   #offset(plane) {
@@ -211,11 +273,12 @@ export class Handles {
       const by = followed((p) => this.#seen(p), end, [along], {x: tip.x + dx, y: tip.y + dy});
       return by && rounded(offset + by[0], centre.unit, event);
     };
-    return [{name: "offset", look: "axis offset", step: "Move the plane", label: tip, part: stem(centre, tip), value: offset, valueAt,
+    return [{name: "offset", look: "axis offset", step: "Move the plane", label: tip, part: stem(centre, tip), value: offset, valueAt, isWhole: true,
+      tipAt: (value) => this.#seen(plus(end, times(along, value - offset))),
       operations: (value) => this.#setting(plane, ["offset"], value)}];
   }
   // A ring around the axis of the first rotation, or around the vertical axis, with a dot that turns it.
-  #ring(chain) {
+  #ring(chain, room) {
     const entry = chain.find((one) => one.kind === "rotate") ?? null, around = entry ? null : this.#inside(chain, ["set", "translate"]);
     const angle = entry ? valueOf(entry, "angle") : 0, axis = entry ? valueOf(entry, "axis", [0, 0, 1]) : [0, 0, 1];
     if (typeof angle !== "number" || !Array.isArray(axis) || !(Math.hypot(...axis) > 0)) return [];
@@ -228,8 +291,8 @@ export class Handles {
       const c = Math.cos(degrees * Math.PI / 180), s = Math.sin(degrees * Math.PI / 180);
       return this.#seen(transformPoint(map, plus(times(a, size * c), times(b, size * s))));
     };
-    // The dot of what is not rotated yet is not behind an arrow.
-    const shown = entry ? angle : -50, places = Array.from({length: 49}, (_, i) => point(7.5 * i)), knob = point(shown), next = point(shown + 7.5);
+    // The dot of what is not rotated yet may be anywhere.
+    const shown = entry ? angle : room.choose([-50, -20, -80, 130, 160, 100], point), places = Array.from({length: 49}, (_, i) => point(7.5 * i)), knob = point(shown), next = point(shown + 7.5);
     if (!knob || !next || places.some((place) => !place)) return [];
     const path = makeSvg("path", {d: `M${places.map(({x, y}) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}`});
     // Where the ring is seen from below, it turns the other way round.
@@ -240,10 +303,10 @@ export class Handles {
       return Number((Math.round((angle + turn) / grid) * grid).toPrecision(6));
     };
     return [{name: "rotate", look: entry ? "ring" : "ring faint", step: "Rotate", label: knob, part: makeSvg("g", {}, path, circle(knob, 6)), value: angle, unit: "degrees",
-      valueAt, operations: this.#placing({entry, around, kind: "rotate", name: "angle", more: {axis: [0, 0, 1]}})}];
+      valueAt, tipAt: (value) => point(shown + value - angle), operations: this.#placing({entry, around, kind: "rotate", name: "angle", more: {axis: [0, 0, 1]}})}];
   }
   // Squares that scale along the axes of the selection, and one for all axes.
-  #squares(chain) {
+  #squares(chain, room) {
     const placing = ["set", "translate", "rotate"], around = this.#inside(chain, placing);
     const [scale, stretch] = ["scale", "stretch"].map((kind) => chain.find((entry) => entry.kind === kind) ?? null);
     const map = mapTo(stretch ?? around, false), centre = this.#seen(transformPoint(mapTo(scale ?? stretch ?? around, false), [0, 0, 0]));
@@ -252,16 +315,19 @@ export class Handles {
     const grown = (value, [dx, dy], along, event) => rounded(value * Math.max(0.02, 1 + (dx * along[0] + dy * along[1]) / square), value / square, event);
     const parts = axes.map(([name, axis], i) => {
       // Opposite to the arrows and to what has a length along the axis.
-      const direction = times(unit(transformVector(map, axis)), -1), tip = this.#seen(plus(transformPoint(map, [0, 0, 0]), times(direction, square * centre.unit)));
+      const direction = times(unit(transformVector(map, axis)), -1), endAt = (length) => this.#seen(plus(transformPoint(map, [0, 0, 0]), times(direction, length * centre.unit)));
+      const tip = endAt(room.choose([1, 1.5, 2, 2.5].map((k) => k * square), endAt));
       const size = tip ? Math.hypot(tip.x - centre.x, tip.y - centre.y) : 0;
       if (size < 8 || !Array.isArray(factors)) return null;
       const along = [(tip.x - centre.x) / size, (tip.y - centre.y) / size];
       return {name: `scale ${name}`, look: `square ${name}`, step: "Stretch", label: tip, part: makeSvg("g", {}, line(centre, tip, "thin"), box(tip)), value: factors, least: 1e-4,
+        tipAt: (value) => beyond(tip, along, square * (value[i] / factors[i] - 1)),
         valueAt: (by, event) => factors.map((old, j) => (i === j ? grown(old, by, along, event) : old)),
         operations: this.#placing({entry: stretch, around, kind: "stretch", name: "factors"})};
     });
-    const corner = {x: centre.x + 0.8 * arrow, y: centre.y - 0.8 * arrow};
+    const cornerAt = (k) => ({x: centre.x + k * arrow, y: centre.y - k * arrow}), corner = cornerAt(room.choose([0.8, 1.1, 1.4, 1.7], cornerAt));
     const all = {name: "scale", look: "square all", step: "Scale", label: corner, part: makeSvg("g", {}, line(centre, corner, "thin"), box(corner)), value: factor, least: 1e-4,
+      tipAt: (value) => beyond(corner, [0.7071, -0.7071], 1.13 * arrow * (value / factor - 1)),
       valueAt: (by, event) => grown(factor, times(by, square / (1.13 * arrow)), [0.7071, -0.7071], event),
       operations: this.#placing({entry: scale, around: stretch ?? around, kind: "scale", name: "factor"})};
     return [...parts.filter(Boolean), ...(typeof factor === "number" ? [all] : [])];
@@ -294,7 +360,8 @@ export class Handles {
       const by = followed((p) => this.#seen(p), end, [vector], {x: tip.x + dx, y: tip.y + dy});
       return by && limited(rounded(value + by[0], grain, event), grain);
     };
-    return {label: tip, part: makeSvg("g", {}, line(root, tip, "thin"), circle(tip, 6)), valueAt};
+    const tipAt = (now) => this.#seen(transformPoint(map, plus(from, times(along, now))));
+    return {label: tip, part: makeSvg("g", {}, line(root, tip, "thin"), circle(tip, 6)), valueAt, tipAt};
   }
   #point(map, {value, basis}) {
     const p = transformPoint(map, inSpace(value)), tip = this.#seen(p);
@@ -305,18 +372,46 @@ export class Handles {
       const change = by && (basis ? by : inverseTransformVector(map, vectors.reduce((sum, v, i) => plus(sum, times(v, by[i])), [0, 0, 0])));
       return change && value.map((c, i) => (Math.abs(change[i]) < 1e-9 * tip.unit ? c : rounded(c + change[i], tip.unit, event)));
     };
-    return {label: tip, part: circle(tip, 6), valueAt};
+    return {label: tip, part: circle(tip, 6), valueAt, tipAt: (now) => this.#seen(transformPoint(map, inSpace(now)))};
   }
   // Beside the middle, from a dot that marks 0.
   #measure(map, {value}, limited, centre, i) {
     const grain = centre.unit / Math.max(1e-9, Math.hypot(...transformVector(map, [1, 0, 0]))), along = diagonals[i % diagonals.length];
     const place = (pixels) => ({x: centre.x + along[0] * pixels, y: centre.y + along[1] * pixels});
-    const tip = place(beside + Math.max(-beside, Math.min(4 * arrow, value / grain)));
+    const tipAt = (now) => place(beside + Math.max(-beside, Math.min(4 * arrow, now / grain))), tip = tipAt(value);
     const valueAt = ([dx, dy], event) => limited(rounded(value + (dx * along[0] + dy * along[1]) * grain, grain, event), grain);
-    return {look: "measure", label: tip, part: makeSvg("g", {}, line(place(beside), tip, "thin"), circle(place(beside), 2.5), circle(tip, 6)), valueAt};
+    return {look: "measure", label: tip, part: makeSvg("g", {}, line(place(beside), tip, "thin"), circle(place(beside), 2.5), circle(tip, 6)), valueAt, tipAt};
   }
 }
 
+// Chooses places for handles that are at least some pixels apart.
+class Room {
+  #taken;
+
+  constructor(taken) {
+    this.#taken = taken;
+  }
+  take(place) {
+    this.#taken.push(place);
+  }
+  // The first of some values whose place is free, or else the first.
+  choose(values, placeAt) {
+    const isFree = (place) => place && this.#taken.every(({x, y}) => Math.hypot(place.x - x, place.y - y) >= apart);
+    const value = values.find((one) => isFree(placeAt(one))) ?? values[0], place = placeAt(value);
+    if (place) this.take(place);
+    return value;
+  }
+}
+
+// How far a handle was moved with another one that was dragged.
+const shiftOf = (part) => JSON.parse(part.dataset.shift ?? "[0, 0]");
+function shift(part, [dx, dy]) {
+  const [x, y] = shiftOf(part);
+  part.dataset.shift = JSON.stringify([x + dx, y + dy]);
+  part.setAttribute("transform", `translate(${x + dx} ${y + dy})`);
+}
+
+const beyond = ({x, y}, along, pixels) => ({x: x + along[0] * pixels, y: y + along[1] * pixels});
 const line = (a, b, look = "") => makeSvg("line", {x1: a.x, y1: a.y, x2: b.x, y2: b.y, class: look});
 const circle = ({x, y}, r) => makeSvg("circle", {cx: x, cy: y, r});
 const box = ({x, y}) => makeSvg("rect", {x: x - 5, y: y - 5, width: 10, height: 10});

@@ -7,6 +7,7 @@ import {icon, iconOf} from "./icons.js";
 import {isPlacing, nameOf} from "./names.js";
 import {ParameterRow, titleOf} from "./parameter_row.js";
 import {joined} from "./pointer.js";
+import {following} from "./relations.js";
 import {shortMessage} from "./server.js";
 import {chainOf, isNode, isSection, membersOf, pathTo, pointerOf} from "./structure.js";
 import {lookOf, swatchOf} from "./swatch.js";
@@ -74,16 +75,22 @@ export class Inspector {
       set: (entry, name, text, gesture, row, index) => this.#perform(row, {
         label: `Change ${titleOf(name).toLowerCase()} of ${nameOf(entry, this.catalogue).toLowerCase()}`,
         merge: gesture,
-        operations: [{set: index === undefined ? pointerOf(entry, name) : joined(pointerOf(entry, name), index), to: text}],
+        operations: () => this.#withFollowers(entry, name, {set: index === undefined ? pointerOf(entry, name) : joined(pointerOf(entry, name), index), to: text}),
       }, this.#exchange(entry, name, text, row)),
       fill: (entry, slot) => act.addTo(entry, {...slot, pointer: joined(membersOf(entry), slot.name)}),
       reset: (entry, name, row) => this.#perform(row, {
         label: `Reset ${titleOf(name).toLowerCase()}`,
-        operations: [{remove: pointerOf(entry, name)}],
+        operations: () => this.#withFollowers(entry, name, {remove: pointerOf(entry, name)}),
       }),
     };
     this.failed = failed;
     selection.addEventListener("change", () => this.show());
+  }
+  // An operation on a parameter, with those on the parameters that it excludes or requires. The entry is looked up again
+  // because earlier steps of a gesture may have changed it.
+  #withFollowers(entry, name, operation) {
+    const now = this.#scene.entry(entry.key) ?? entry, {before, after} = following(this.catalogue.of(now), now, name, "set" in operation);
+    return [...before, operation, ...after];
   }
   // If two parameters must be different phases, choosing the other one's phase exchanges them.
   #exchange(entry, name, text, row) {
@@ -98,11 +105,16 @@ export class Inspector {
       row.fail("");
       return true;
     } catch (error) {
-      if (exchange && !error.isOutdated) return this.#perform(row, {...step, operations: [...step.operations, ...exchange]});
-      row.fail(shortMessage(error));
+      if (exchange && !error.isOutdated) return this.#perform(row, {...step, operations: () => [...step.operations(), ...exchange]});
+      const other = this.#scene.error;
+      row.fail(other ? `First correct the error in the text${other.line ? ` on line ${other.line}` : ""}: ${other.message}` : shortMessage(error));
       this.failed(error);
       return false;
     }
+  }
+  // What was wrong may be right after a change by another page, or be about another part.
+  forgetFailures() {
+    for (const row of this.#sections.flatMap((section) => section.rows)) row.forgetFailure();
   }
   use(catalogue) {
     this.catalogue = catalogue;
@@ -188,9 +200,10 @@ export class Inspector {
     if (more === "") return make("p", {class: "about"}, text);
     const rest = make("span", {hidden: true}, ` ${more}`);
     return make("p", {class: "about"}, text, rest, " ", make("button", {
-      type: "button", class: "link", onclick: (event) => {
+      type: "button", class: "link", "aria-label": "More about this kind", onclick: (event) => {
         rest.hidden = !rest.hidden;
         event.currentTarget.textContent = rest.hidden ? "More" : "Less";
+        event.currentTarget.setAttribute("aria-label", `${event.currentTarget.textContent} about this kind`);
       },
     }, "More"));
   }

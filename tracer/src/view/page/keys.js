@@ -18,12 +18,23 @@ const table = [
   ["Numbers", [["Drag", "Change"], ["Shift, Ctrl", "Finer, coarser"], ["↑ ↓", "Step"], ["1/3, 2*0.4", "Typed: calculates"], ["Esc", "Cancel"]]],
 ];
 
+// Whether what is in a field of the inspector is part of the scene: nothing has been typed since. Ctrl+Z then undoes a step
+// of the scene; before, the browser undoes what has been typed.
+const isCommitted = (element) => element instanceof HTMLInputElement && element.closest("#inspector") !== null && !element.dataset.typed;
+
+// Fields with a control of their own, such as numbers, keep track of this themselves.
+function watchTyping() {
+  addEventListener("input", ({target}) => { if (target.matches?.("#inspector input.line")) target.dataset.typed = "yes"; });
+  addEventListener("change", ({target}) => { if (target.matches?.("#inspector input.line")) delete target.dataset.typed; });
+}
+
 export function showKeys() {
   openDialog("Keys", "keys", () => make("div", {class: "key-tables"}, table.map(([title, rows]) => make("section", {}, make("h3", {}, title),
     make("dl", {}, rows.flatMap(([keys, text]) => [make("dt", {}, keys.split(", ").flatMap((key) => [make("kbd", {}, key), " "])), make("dd", {}, text)]))))));
 }
 
 export function listenForKeys(actions, {toggleText, frame, toggleGrab, toggleOutline, toggleHidden, showAll, wrapButton, whenReady}) {
+  watchTyping();
   document.addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open], [popover]:popover-open")) return;
     const control = event.ctrlKey || event.metaKey, key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
@@ -31,7 +42,8 @@ export function listenForKeys(actions, {toggleText, frame, toggleGrab, toggleOut
       event.preventDefault();
       return toggleText();
     }
-    if (isTyping(document.activeElement)) return;
+    const isOfHistory = control && ["z", "y"].includes(key);
+    if (isTyping(document.activeElement) && !(isOfHistory && isCommitted(document.activeElement))) return;
     const onPicture = document.activeElement?.id === "picture";
     const run = (() => {
       if (control && key === "z") return () => (event.shiftKey ? actions.redo() : actions.undo());

@@ -1,6 +1,7 @@
 // A number that is dragged, typed or stepped by the arrow keys. Shift is finer, Ctrl is coarser. Values of one gesture
 // carry the same name, so that they become one step of undo.
 import {make, newId} from "./dom.js";
+import {onEscape} from "./press.js";
 
 const pixelsToStart = 3;
 const pauseOfKeys = 900; // milliseconds between key presses of one gesture
@@ -112,10 +113,15 @@ export class NumberField {
       this.#set(precise(Math.round((base + by * size) / grid) * grid), gesture);
     };
     const end = () => {
+      stopEscape();
       this.element.removeEventListener("pointermove", move);
       this.element.classList.remove("dragged");
       if (!isDragged) this.input.focus();
     };
+    const stopEscape = onEscape(() => {
+      end();
+      if (isDragged) this.element.dispatchEvent(new CustomEvent("cancelgesture", {bubbles: true, detail: gesture}));
+    });
     this.element.setPointerCapture(event.pointerId);
     this.element.addEventListener("pointermove", move);
     this.element.addEventListener("pointerup", end, {once: true});
@@ -142,7 +148,7 @@ export class NumberField {
       this.show(...this.#shown);
       this.input.blur();
     }
-    if (event.key !== "Tab" && !event.ctrlKey) event.stopPropagation();
+    if (event.key !== "Tab" && !event.ctrlKey && !event.metaKey) event.stopPropagation();
   }
   // What was sent already is sent again only on request, for example because the server did not answer.
   #type(isAgain = false) {

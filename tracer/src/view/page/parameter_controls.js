@@ -64,9 +64,9 @@ export const makers = {
   },
   vector(row) {
     const length = (row.value ?? row.fallback ?? [0, 0, 0]).length;
-    const names = length <= 4 ? ["x", "y", "z", "w"].slice(0, length) : undefined;
-    if (!names) return makers.json(row);
-    const scale = row.spec.control === "direction" ? 1 : row.context.radius();
+    const isOfColours = row.spec.type === "[r, g, b]", letters = isOfColours ? ["R", "G", "B"] : ["x", "y", "z", "w"];
+    if (length > 4) return makers.json(row);
+    const names = letters.slice(0, length), scale = isOfColours || row.spec.control === "direction" ? 1 : row.context.radius();
     const field = new VectorField({label: row.title, names, scale}, (value, gesture) => row.change(value, gesture));
     return {element: field.element, show: (value, fallback) => field.show(value, fallback)};
   },

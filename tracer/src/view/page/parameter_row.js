@@ -1,5 +1,5 @@
-// One parameter in the inspector: its name, the control that fits it, a button that restores the default, a button for
-// keys, its help, and what is wrong with it.
+// One parameter in the inspector: its name, which focuses its control, the control that fits it, a button that restores the
+// default, a button for keys, one for its help, and what is wrong with it.
 import {plainText} from "./catalogue.js";
 import {make, newId} from "./dom.js";
 import {icon} from "./icons.js";
@@ -30,13 +30,14 @@ export class ParameterRow {
     this.fallback = spec.default === null || spec.default === undefined ? null : parsed(spec.default);
     const id = newId("help");
     this.help = make("p", {class: "help", id, hidden: true}, this.#helpText());
-    this.label = make("button", {
-      type: "button", class: "label", title: this.help.textContent, "aria-expanded": "false", "aria-controls": id, tabIndex: -1,
+    this.label = make("label", {class: "label", title: this.help.textContent, onclick: (event) => this.#press(event)}, this.title);
+    this.helpButton = make("button", {
+      type: "button", class: "icon-button small about-it", "aria-label": `Help on ${this.title}`, title: this.help.textContent, "aria-expanded": "false", "aria-controls": id,
       onclick: () => {
         this.help.hidden = !this.help.hidden;
-        this.label.setAttribute("aria-expanded", String(!this.help.hidden));
+        this.helpButton.setAttribute("aria-expanded", String(!this.help.hidden));
       },
-    }, this.title);
+    }, icon("help"));
     this.place = make("div", {class: "control"});
     this.place.addEventListener("keydown", (event) => {
       if (event.key !== "Escape" || this.#rejected === undefined) return;
@@ -54,7 +55,7 @@ export class ParameterRow {
     }, icon("reset"));
     this.keyButton = spec.may_be_keyed ? make("button", {type: "button", class: "icon-button small key", onclick: () => this.#toggleKey()}, icon("key")) : null;
     this.problem = make("p", {class: "problem", role: "alert", hidden: true});
-    this.element = make("div", {class: "parameter", "data-parameter": spec.name}, this.label, this.place, make("div", {class: "beside"}, this.insteadButton, this.resetButton, this.keyButton), this.problem, this.help);
+    this.element = make("div", {class: "parameter", "data-parameter": spec.name}, this.label, this.place, make("div", {class: "beside"}, this.insteadButton, this.resetButton, this.keyButton, this.helpButton), this.problem, this.help);
   }
   #helpText() {
     const {help, low, high, low_open: lowIsOpen, required} = this.spec, {unit} = this;
@@ -138,10 +139,23 @@ export class ParameterRow {
     this.keyButton.title = text;
     this.keyButton.setAttribute("aria-label", `${this.title}: ${text.charAt(0).toLowerCase()}${text.slice(1)}`);
   }
+  // Drops what was rejected, because the scene has been changed elsewhere since, unless it is still being corrected.
+  forgetFailure() {
+    if (this.element.contains(document.activeElement)) return;
+    this.#rejected = undefined;
+    this.fail("");
+  }
   fail(message) {
     this.problem.textContent = message;
     this.problem.hidden = message === "";
     this.element.classList.toggle("wrong", message !== "");
+  }
+  // The label does what its control does: a switch changes, and anything else gets the focus.
+  #press(event) {
+    event.preventDefault();
+    const control = this.place.querySelector("input, button, textarea");
+    if (control?.type === "checkbox") control.click();
+    control?.focus();
   }
   focus() {
     this.place.querySelector("input, button, textarea")?.focus();

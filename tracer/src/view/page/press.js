@@ -59,3 +59,15 @@ addEventListener("keyup", (event) => {
 addEventListener("blur", () => {
   if (press !== null) end();
 });
+
+// Calls a function when Escape is pressed, before anything else on the page learns of it. Returns what stops this.
+export function onEscape(run) {
+  const listen = (event) => {
+    if (event.key !== "Escape") return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    run(event);
+  };
+  addEventListener("keydown", listen, {capture: true});
+  return () => removeEventListener("keydown", listen, {capture: true});
+}

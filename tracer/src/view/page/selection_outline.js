@@ -6,6 +6,7 @@ import {askSelected} from "./server.js";
 import {isNode} from "./structure.js";
 
 const rest = 120; // milliseconds from the last change to the request
+const pauseAfterFailure = 1000, mostAttempts = 5;
 
 // What to request. All surfaces of a phase that occurs only in one object belong to this object, even if another node
 // determines them, as the inside of a glass does for the water in it.
@@ -75,10 +76,12 @@ export class SelectionOutline {
   #scene;
   #selection;
   #parts = "";
+  #text = "";      // of the scene for the last request: the same pointer may lead to another part of another text
   #picture = null; // identifies what the last picture shows
   #timer = null;
   #asked = 0;
   #isAsking = false;
+  #failures = 0; // in a row
   isOn = true;
 
   // `status` is an element whose text tells screen readers what is outlined; `nameOf(entry)` is a name for people.
@@ -117,23 +120,31 @@ export class SelectionOutline {
     const isNothing = !this.isOn || parts.pointers.length + parts.phases.length === 0;
     const text = isNothing ? "nothing" : JSON.stringify(parts);
     if (this.#picture === null) return;
-    if (text === this.#parts) {
+    if (text === this.#parts && this.#text === this.#scene.text) {
       this.#svg.classList.toggle("old", this.#isAsking);
       return;
     }
     this.#parts = text;
+    this.#text = this.#scene.text;
     const asked = ++this.#asked;
     this.#isAsking = !isNothing;
     if (isNothing) return this.#show(null, []);
     let mask = null;
     try {
       mask = await askSelected(parts);
+      this.#failures = 0;
     } catch {
-      // There is no picture yet, or finding the selection takes too long. The scene's outline still marks it.
+      // There is no picture yet, or finding the selection takes too long, as while the picture is rendered. The scene's
+      // outline still marks it.
+      this.#failures += 1;
     }
     if (asked !== this.#asked) return;
     this.#isAsking = false;
-    if (this.#parts === text) this.#show(mask, entries);
+    if (mask === null && this.#failures < mostAttempts) {
+      this.#parts = "";
+      this.#timer = setTimeout(() => this.#ask(), pauseAfterFailure);
+    }
+    if (this.#parts === text || mask === null) this.#show(mask, entries);
   }
   #show(mask, entries) {
     this.#svg.classList.remove("old");

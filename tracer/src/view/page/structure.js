@@ -46,6 +46,22 @@ export function topOfChain(entry) {
   return top;
 }
 
+// What a point belongs to, from the outside in, along the nodes that decide it: first one of the parts that the scene's tree
+// puts together, and a reusable shape after the place where it is used.
+export function partsAlong(entries) {
+  const parts = new Set();
+  for (const entry of entries) {
+    const above = pathTo(entry), first = above.indexOf(topOfChain(entry));
+    for (const one of above.slice(first)) parts.add(one);
+    if (entry.children.length === 1 && entry.children[0].kind === "reference") parts.add(entry.children[0]);
+  }
+  const all = [...parts], [root] = all;
+  if (!root || root.pointer.startsWith("/shapes/")) return all;
+  const branch = all.findIndex((entry) => entry.children.length > 1);
+  const isPutTogether = branch >= 0 && branch + 1 < all.length && isInList(all[branch + 1]) && all[branch + 1].parent === all[branch];
+  return isPutTogether && root.parent === null ? all.slice(branch + 1) : all;
+}
+
 export function pathTo(entry) {
   const path = [];
   for (let at = entry; at && !isSection(at); at = at.parent) path.unshift(at);

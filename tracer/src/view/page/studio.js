@@ -14,7 +14,7 @@ import {nameOf} from "./names.js";
 import {Selection} from "./selection.js";
 import {SelectionOutline} from "./selection_outline.js";
 import {askCatalogue, pause, shortMessage} from "./server.js";
-import {chainOf, isNode, isSection, membersOf, topOfChain} from "./structure.js";
+import {chainOf, isNode, isSection, membersOf, partsAlong} from "./structure.js";
 import {mapTo, transformPoint} from "./affine.js";
 import {present} from "./keyframes.js";
 import {whenReleased} from "./press.js";
@@ -66,6 +66,7 @@ export class Studio {
     });
     this.scene.addEventListener("change", (event) => this.#changed(event.detail));
     this.selection.addEventListener("change", () => this.#selected());
+    document.addEventListener("cancelgesture", (event) => this.scene.takeBack(event.detail).catch((error) => this.announcer.say(shortMessage(error), {isWrong: true})));
     document.addEventListener("nonsense", (event) => this.announcer.say(`“${event.detail.slice(0, 40)}” is not a number. Type one such as 0.5, 2e-3 or 1/3.`, {isWrong: true}));
     this.#connectButtons();
   }
@@ -154,6 +155,7 @@ export class Studio {
       this.#whenOutlined?.();
       this.#whenOutlined = null;
     }
+    if (!isOwn) this.inspector.forgetFailures();
     this.inspector.show();
     this.text.show();
     this.timeline.show();
@@ -196,18 +198,13 @@ export class Studio {
   entryOf(pointer) {
     return pointer === "" ? null : this.scene.entries.find((entry) => !isSection(entry) && (membersOf(entry) === pointer || entry.pointer === pointer)) ?? null;
   }
-  // Selects what the picture shows at a point: the whole thing first, and then what it is made of.
+  // Selects what the picture shows at a point: first the whole thing, and with each further click a part of it.
   selectNodes(path, point = null) {
     if (point) this.actions.pointed = point;
     if (!this.scene.hasOutline) return void (this.#whenOutlined = () => this.selectNodes(path));
-    const entries = path.map((node) => this.entryOf(node.pointer)).filter(Boolean), deepest = entries.at(-1);
-    if (!deepest) {
-      this.selection.set([]);
-      return;
-    }
-    const top = topOfChain(deepest), chain = chainOf(top), now = this.actions.active;
-    const index = now ? chain.indexOf(now) : -1;
-    this.selection.set([(index >= 0 && index + 1 < chain.length ? chain[index + 1] : top).key]);
+    const parts = partsAlong(path.map((node) => this.entryOf(node.pointer)).filter(Boolean));
+    const next = parts[parts.indexOf(this.actions.active) + 1] ?? parts[0];
+    this.selection.set(next ? [next.key] : []);
   }
   selectNode(pointer) {
     if (!this.scene.hasOutline) return void (this.#whenOutlined = () => this.selectNode(pointer));
