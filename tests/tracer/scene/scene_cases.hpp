@@ -156,6 +156,10 @@ inline void tell(std::vector<float>& told, const tracer::Material& material) {
                 tell(told, m.film ? m.film->thickness : tracer::Number(-1.0f));
                 told.push_back(m.film ? m.film->ior : 0);
             }
+            if constexpr (requires { m.bump; }) {
+                told.push_back(m.bump ? m.bump->height : 0);
+                if (m.bump) tell(told, m.bump->texture);
+            }
             if constexpr (requires { m.perturbation; }) {
                 const auto* bump = m.perturbation ? std::get_if<tracer::Bump>(&*m.perturbation) : nullptr;
                 told.push_back(bump ? bump->height : 0);
@@ -285,32 +289,34 @@ inline std::vector<Case> cases_of_materials() {
     const std::string dense =
         R"("ior": 1.5, "absorption": [1, 2, 3], "density": {"sphere": {"radius": 1}}, "density_depth": 0.5)";
     const std::string by_voxels = R"("ior": 1.5, "absorption": [1, 2, 3])";
-    material(
-        "clear", R"("ior": 1.5)",
-        {{"color_distance", R"("ior": 1.5, "color": [0.2, 0.5, 0.8])"},
-         {"albedo", free_path},
-         {"mean_free_path", free_path},
-         {"medium", measured},
-         {"scale", measured},
-         {"anisotropy", R"("ior": 1.5, "scattering": [1, 1, 1])"},
-         {"phase_function", R"("ior": 1.5, "scattering": [1, 1, 1])"},
-         {"emission", R"("ior": 1.5, "absorption": [1, 1, 1])"},
-         {"emission_spectrum", R"("ior": 1.5, "absorption": [1, 1, 1], "emission": [1, 1, 1])"},
-         {"density", dense},
-         {"density_depth", dense},
-         {"density_grid", by_voxels},
-         {"temperature_grid", dense + R"(, "emission": [1, 1, 1])"},
-         {"emission_temperature",
-          dense +
-              R"(, "emission": [1, 1, 1], "temperature_grid": {"file": "layer.pgm", "spacing": [1, 1, 1], "factor": 2000})"},
-         {"film_ior", R"("ior": 1.5, "film_thickness": 300)"},
-         {"glass", R"("glass": "bk7")"}});
     // A bump needs a height, and a height a bump.
     const auto bumped = [](const std::string& needed, std::map<std::string, std::string> instead) {
         for (const char* const key : {"bump", "bump_height"})
             instead[key] = needed + (needed.empty() ? "" : ", ") + R"("bump": {"marble": {}}, "bump_height": 0.1)";
         return instead;
     };
+    material(
+        "clear", R"("ior": 1.5)",
+        bumped(
+            R"("ior": 1.5)",
+            {{"color_distance", R"("ior": 1.5, "color": [0.2, 0.5, 0.8])"},
+             {"albedo", free_path},
+             {"mean_free_path", free_path},
+             {"medium", measured},
+             {"scale", measured},
+             {"anisotropy", R"("ior": 1.5, "scattering": [1, 1, 1])"},
+             {"phase_function", R"("ior": 1.5, "scattering": [1, 1, 1])"},
+             {"emission", R"("ior": 1.5, "absorption": [1, 1, 1])"},
+             {"emission_spectrum", R"("ior": 1.5, "absorption": [1, 1, 1], "emission": [1, 1, 1])"},
+             {"density", dense},
+             {"density_depth", dense},
+             {"density_grid", by_voxels},
+             {"temperature_grid", dense + R"(, "emission": [1, 1, 1])"},
+             {"emission_temperature",
+              dense +
+                  R"(, "emission": [1, 1, 1], "temperature_grid": {"file": "layer.pgm", "spacing": [1, 1, 1], "factor": 2000})"},
+             {"film_ior", R"("ior": 1.5, "film_thickness": 300)"},
+             {"glass", R"("glass": "bk7")"}}));
     material("diffuse", R"("color": [0.1, 0.2, 0.3])", bumped(R"("color": [0.1, 0.2, 0.3])", {}));
     const std::string index = R"("eta": [1, 2, 3], "k": [2, 3, 4])";
     material("conductor", R"("metal": "gold")",

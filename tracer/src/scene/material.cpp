@@ -28,18 +28,16 @@ std::vector<std::string_view> names_of_glasses() {
 }
 
 std::optional<Bump> BumpParameters::bump() const {
-    check_relations(relations_of_perturbations(), [&](std::string_view name) {
-        return name == "bump" ? bump_texture.has_value() : name == "bump_height" && bump_height.has_value();
+    check_relations(relations_of_bumps(), [&](std::string_view name) {
+        return name == "bump" ? bump_texture.has_value() : bump_height.has_value();
     });
     if (!bump_texture || *bump_height == 0.0f) return std::nullopt;
     return Bump{*bump_texture, *bump_height};
 }
 
 std::optional<NormalPerturbation> PerturbationParameters::perturbation() const {
-    check_relations(relations_of_perturbations(), [&](std::string_view name) {
-        return name == "bump"          ? bump_texture.has_value()
-               : name == "bump_height" ? bump_height.has_value()
-                                       : normal_map.has_value();
+    check_relations(relations_of_normal_maps(), [&](std::string_view name) {
+        return name == "bump" ? bump_texture.has_value() : normal_map.has_value();
     });
     if (normal_map) return *normal_map;
     return bump();

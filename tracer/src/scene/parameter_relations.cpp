@@ -73,12 +73,16 @@ const ParameterRelations& relations_of_thin_glass() {
     return relations;
 }
 
-const ParameterRelations& relations_of_perturbations() {
+const ParameterRelations& relations_of_bumps() {
     static const ParameterRelations relations{
-        .exclusive = {{"bump", "normal_map"}},
         .requirements = {
             {"bump", {"bump_height"}, "0.01"},
             {"bump_height", {"bump"}, R"({"speckle": {"color": [1, 1, 1], "other": [0, 0, 0], "grain": 0.02}})"}}};
+    return relations;
+}
+
+const ParameterRelations& relations_of_normal_maps() {
+    static const ParameterRelations relations{.exclusive = {{"bump", "normal_map"}}};
     return relations;
 }
 
@@ -102,7 +106,8 @@ ParameterRelations relations_of(std::string_view type, std::string_view kind,
         if (kind == "clear") append(all, relations_of_clear());
         if (kind == "conductor") append(all, relations_of_conductor());
         if (kind == "thin_glass") append(all, relations_of_thin_glass());
-        if (has("bump_height")) append(all, relations_of_perturbations());
+        if (has("bump_height")) append(all, relations_of_bumps());
+        if (has("normal_map")) append(all, relations_of_normal_maps());
         if (has("grain_along")) append(all, relations_of_grain());
     }
     if (type == "mesh" && has("opacity_cutoff")) append(all, relations_of_opacity());

@@ -28,7 +28,8 @@ struct ParameterRelations {
 const ParameterRelations& relations_of_clear();
 const ParameterRelations& relations_of_conductor();
 const ParameterRelations& relations_of_thin_glass();
-const ParameterRelations& relations_of_perturbations();
+const ParameterRelations& relations_of_bumps();
+const ParameterRelations& relations_of_normal_maps();
 const ParameterRelations& relations_of_grain();
 const ParameterRelations& relations_of_opacity();
 
