@@ -305,6 +305,28 @@ TEST_CASE("stacks are numbered, and reach from the first position to the last") 
     CHECK(shell.slice({"--count", "3", "--from", "-2", "--to", "0", "-o", "c.#.svg"}).code == 0);
 }
 
+TEST_CASE("stacks fit an object that fills only a part of its tree's box, and their pages have one size") {
+    // A box whose upper half is cut away, over a smaller one.
+    const SliceShell shell(R"({"over": [
+        {"set": {"phase": "glass", "of": {"difference": {"from": {"box": {"size": [2, 2, 2]}},
+            "subtract": [{"translate": {"by": [0, 0, 1], "of": {"box": {"size": [4, 4, 2]}}}}]}}}},
+        {"set": {"phase": "water", "of": {"translate": {"by": [0, 0, -1.25], "of": {"box": {"size": [1, 1, 0.5]}}}}}}]})",
+                           R"("glass": null, "water": null)");
+    REQUIRE(shell.slice({"--count", "6", "-o", "a.#.svg"}).code == 0);
+    std::string height;
+    for (int i = 0; i < 6; ++i) {
+        const std::string svg = bytes_of(shell.directory / ("a." + std::to_string(i) + ".svg"));
+        CHECK_FALSE(drawing_of(svg).phases.empty());
+        const std::string of_page = attribute(svg.substr(svg.find("<svg")), "height");
+        CHECK((height.empty() || height == of_page));
+        height = of_page;
+    }
+    const Outcome beyond = shell.slice({"--z", "0.5"});
+    CHECK(beyond.code == 2);
+    CHECK(beyond.err.find("does not meet the object, which extends from -1.5") != std::string::npos);
+    CHECK(beyond.err.find(" to 1") == std::string::npos);
+}
+
 TEST_CASE("Ctrl-C keeps the slices that are finished") {
     const SliceShell shell(ball);
     std::optional<double> ready;
@@ -339,6 +361,7 @@ TEST_CASE("mistakes are reported in words: one error, exit code 2, or 1 if outpu
         {{"--count", "2", "--from", "1", "-o", "a.#.svg"}, "give both --from and --to"},
         {{"--count", "2", "--from", "1", "--to", "1", "-o", "a.#.svg"}, "--from must be less than --to"},
         {{"--count", "2"}, "--output slice.svg: each slice needs its own file; put #### in the name"},
+        {{"--z", "0", "--size", "500"}, "slice: --size is for .png; an .svg scales to any size"},
         {{"--count", "0"}, "--count"},
         {{"--count", "-1"}, "--count"},
         {{"--count", "99999999999"}, "--count"},

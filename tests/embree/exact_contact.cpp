@@ -290,7 +290,7 @@ std::map<Film, Found> films(RTCDevice device, const SceneTree& tree, int count) 
 
 TEST_CASE("no phase of the gallery is thinner than its author says") {
     const Device device;
-    const int count = long_tests() ? 100'000 : 2000;
+    const int count = long_tests() ? 100'000 : 4000;
     std::size_t scenes = 0, seen = 0;
     for (const std::filesystem::path& path : gallery_of_the_library()) {
         if (path.stem() == "drinks_in_the_sun") continue;  // the same object, which the next test case says

@@ -168,7 +168,7 @@ TEST_CASE("the surface follows the pointer within a pixel, for every number that
             std::string text = studio;
             text.replace(text.find("@TREE@"), 6, text_of(entry.path()));
             const Viewed viewed(text, (nodes / "studio.json").string());
-            const auto outcomes = drag_all(viewed, tests::long_tests() ? 11 : 31, tests::long_tests() ? 100'000 : 350);
+            const auto outcomes = drag_all(viewed, tests::long_tests() ? 11 : 23, tests::long_tests() ? 100'000 : 600);
             ++examples;
             for (const auto& [pointer, outcome] : outcomes) {
                 if (outcome.drags == 0) continue;

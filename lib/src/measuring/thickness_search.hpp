@@ -38,7 +38,7 @@ class ThicknessSearch {
             } catch (const DivisionStopped&) {
                 break;
             }
-            if (options_.progress) options_.progress(std::ldexp(1.0f, 2 * (levels - last)));
+            tell(std::ldexp(1.0, 2 * (levels - last)));
         }
         if (options_.progress) options_.progress(1.f);
         return found_;
@@ -47,13 +47,23 @@ class ThicknessSearch {
   private:
     static constexpr double close_enough = 1.05;
 
+    double seconds_passed() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
     bool stopped() {
         if (options_.cancelled && options_.cancelled()) is_stopped_ = true;
-        if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() >= options_.seconds)
-            is_stopped_ = true;
+        if (seconds_passed() >= options_.seconds) is_stopped_ = true;
         return is_stopped_;
     }
-    Verdict attempt(const Evidence& e, WallThickness& w, double thickness) const {
+    // Reports this share of the boxes, or the share of the time if that is greater.
+    void tell(double share) {
+        share = std::max(share, seconds_passed() / options_.seconds);
+        if (!options_.progress || !(share > told_ + 1.0 / 1024) || share > 1 - 1.0 / 1024) return;
+        told_ = share;
+        options_.progress(static_cast<float>(share));
+    }
+    Verdict attempt(const Evidence& e, WallThickness& w, double thickness) {
+        tell(0);
         const Proof proof = decide(e, IsThick{w.phase, thickness});
         if (proof.verdict == Verdict::proved) w.low = std::max(w.low, thickness);
         if (proof.verdict == Verdict::refuted && !proof.witnesses.empty() && thickness < w.high) {
@@ -87,6 +97,7 @@ class ThicknessSearch {
     Evaluator evaluator_;
     std::chrono::steady_clock::time_point start_;
     std::vector<WallThickness> found_;
+    double told_ = 0;  // the last progress
     std::atomic<bool> is_stopped_{false};
 };
 

@@ -79,8 +79,11 @@ void print_thickness(const WallThickness& w, const PrintedUnit& length) {
     const double k = 1 / length.size;
     if (!w.place) return put("  {:<18}at least {:.5g} {} everywhere\n", "thickness", w.low * k, length.name);
     const glm::dvec3 place = glm::dvec3(*w.place) * k;
-    put("  {:<18}from {:.5g} to {:.5g} {} where it is thinnest, at ({:.6g}, {:.6g}, {:.6g})\n", "thickness", w.low * k,
-        w.high * k, length.name, place.x, place.y, place.z);
+    // The search ends by itself once the two bounds are within 5 %.
+    const bool is_cut_short = w.high > 1.051 * w.low;
+    put("  {:<18}from {:.5g} to {:.5g} {} where it is thinnest, at ({:.6g}, {:.6g}, {:.6g}){}\n", "thickness",
+        w.low * k, w.high * k, length.name, place.x, place.y, place.z,
+        is_cut_short ? "; the search was cut short, so allow more with --time" : "");
 }
 
 void print_phase(const MeasureReport& report, const MeasuredPhase& p, const TableUnits& units) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,6 +25,7 @@
 #include "output/file.hpp"
 #include "output/interrupt.hpp"
 #include "output/late_progress.hpp"
+#include "phasetree/measuring/measure.hpp"
 #include "phasetree/trace/tracer.hpp"
 #include "render/threads.hpp"
 
@@ -33,6 +35,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 constexpr int most_slices = 100'000;
+constexpr int default_size = 1000;  // in pixels
 
 struct SliceCommand {
     std::array<std::optional<double>, 3> at;  // of planes perpendicular to x, y and z
@@ -43,7 +46,7 @@ struct SliceCommand {
     std::string output = "slice.svg";
     std::optional<std::string> unit;
     double tolerance = 0;
-    int size = 1000;
+    std::optional<int> size;  // of PNG
 
     bool is_svg() const { return std::filesystem::path(output).extension() == ".svg"; }
 };
@@ -64,6 +67,7 @@ void check_slice_options(const SliceCommand& chosen) {
         throw OutputNameError(
             fmt::format("cannot write \"{}\": {}; use .svg or .png", chosen.output,
                         extension.empty() ? "its name has no extension" : "unknown format \"" + extension + "\""));
+    if (chosen.is_svg() && chosen.size) throw UsageError("slice: --size is for .png; an .svg scales to any size");
     if (chosen.count.value_or(1) > 1 && !name_of_frame(chosen.output, 0))
         throw UsageError(fmt::format("--output {}: each slice needs its own file; put #### in the name for its number",
                                      chosen.output));
@@ -97,6 +101,28 @@ std::vector<std::array<int, 3>> distinct_colors(const PhaseNames& names) {
     return colors;
 }
 
+// The object's own box, where it is clearly smaller than that of the tree, as after a cut.
+Bounds box_of(const Phased& object, Bounds box) {
+    constexpr float clearly_smaller = 0.05f;  // as a share of the side
+    MeasureOptions options;
+    options.tolerance = 0.02;
+    options.max_boxes = std::size_t{1} << 16;
+    options.cancelled = [] { return interrupted(); };
+    const MeasureResult measured = measure(object, options);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const MeasuredPhase& phase : measured.phases) {
+            low = std::min(low, phase.box_low[k].low);
+            high = std::max(high, phase.box_high[k].high);
+        }
+        const float margin = clearly_smaller * box.extent()[axis];
+        if (low > static_cast<double>(box.low[axis] + margin)) box.low[axis] = static_cast<float>(low);
+        if (high < static_cast<double>(box.high[axis] - margin)) box.high[axis] = static_cast<float>(high);
+    }
+    return box;
+}
+
 // Draws slices, one after the other.
 class SliceDrawing {
   public:
@@ -108,17 +134,24 @@ class SliceDrawing {
           tree_(tree_of_model(document_, model_, chosen.object)),
           program_(record_tree(document_, tree_.object)),
           traceable_(made_of_tree(document_, [&] { return prepare_to_trace(tree_.object); })),
-          frame_{tree_.phases, distinct_colors(tree_.phases), length_unit(chosen.unit, model_), {}, {}, {}} {
+          frame_{tree_.phases,
+                 phases(tree_.object),
+                 distinct_colors(tree_.phases),
+                 length_unit(chosen.unit, model_),
+                 {},
+                 {},
+                 {}} {
         print_warning(file.shown(), traceable_.warning);
     }
 
     int run() {
-        const std::vector<SlicePlane> planes = planes_to_cut(chosen_, traceable_.bounds);
+        const InterruptGuard guard;
+        bounds_ = box_of(tree_.object, traceable_.bounds);
+        const std::vector<SlicePlane> planes = planes_to_cut(chosen_, bounds_);
         const std::vector<std::string> files = files_of(planes.size());
         check_no_input(files);
         check_tolerance();
         check_meets(planes);
-        const InterruptGuard guard;
         LateProgress progress(ProgressOutput::standard_error(false), "slicing the object");
         try {
             for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -155,7 +188,7 @@ class SliceDrawing {
                 check_overwrites(file_, document_, named_files_of("--output", std::span(&one, 1)));
     }
     void check_meets(const std::vector<SlicePlane>& planes) const {
-        const Bounds& b = traceable_.bounds;
+        const Bounds& b = bounds_;
         const auto meets = [&](const SlicePlane& p) { return p.at >= b.low[p.axis] && p.at <= b.high[p.axis]; };
         if (std::ranges::any_of(planes, meets)) return;
         const int axis = planes.front().axis;
@@ -164,7 +197,7 @@ class SliceDrawing {
             planes.size() == 1 ? "does not meet" : "and the other planes do not meet", b.low[axis], b.high[axis]));
     }
     void check_tolerance() const {
-        const glm::vec3 extent = traceable_.bounds.extent();
+        const glm::vec3 extent = bounds_.extent();
         const float longest = std::max({extent.x, extent.y, extent.z});
         if (chosen_.is_svg() && !(chosen_.tolerance < static_cast<double>(longest)))
             throw UsageError(fmt::format("--tolerance: must be less than the object's longest side, {:.6g}, but is {}",
@@ -173,9 +206,10 @@ class SliceDrawing {
     std::string picture(const SlicePlane& plane, const std::function<void(double)>& tell) {
         const auto cancelled = [] { return interrupted(); };
         frame_.plane = text_of(plane);
-        frame_.low = plane.coordinates(traceable_.bounds.low);
-        frame_.high = plane.coordinates(traceable_.bounds.high);
-        if (!chosen_.is_svg()) return slice_png(program_, plane, frame_, chosen_.size, cancelled, tell);
+        frame_.low = plane.coordinates(bounds_.low);
+        frame_.high = plane.coordinates(bounds_.high);
+        if (!chosen_.is_svg())
+            return slice_png(program_, plane, frame_, chosen_.size.value_or(default_size), cancelled, tell);
         SliceOptions options;
         options.tolerance = chosen_.tolerance;
         options.cancelled = cancelled;
@@ -195,6 +229,7 @@ class SliceDrawing {
     SceneTree tree_;
     Program program_;
     TraceableObject traceable_;
+    Bounds bounds_;  // the object's own
     SliceFrame frame_;
     std::size_t written_ = 0;
 };

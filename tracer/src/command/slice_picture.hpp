@@ -16,6 +16,7 @@ namespace phasetree::tracer {
 // What all slices of a stack share.
 struct SliceFrame {
     const PhaseNames& names;
+    PhaseSet phases;                         // of the object; the page of each slice has room for all of them
     std::vector<std::array<int, 3>> colors;  // of all phases, as sRGB codes; white for the vacuum
     LengthUnit lengths;
     glm::vec2 low, high;  // the rectangle that is shown: the object's bounds

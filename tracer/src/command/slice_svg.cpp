@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "command/slice_picture.hpp"
@@ -89,7 +90,8 @@ std::string slice_svg(const Slice& slice, const SliceFrame& frame) {
     const std::vector<Phase> shown = shown_phases(slice);
     const double page_width = std::max(scale * width + 2 * page_margin, least_page_width);
     const double below = page_margin + scale * height + page_margin;
-    const double page_height = below + legend_row * (static_cast<double>(shown.size()) + 1) + page_margin;
+    const PhaseSet listed{frame.phases.bits & ~PhaseSet::of(phasetree::vacuum).bits};
+    const double page_height = below + legend_row * (std::popcount(listed.bits) + 1) + page_margin;
     std::string svg = fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
