@@ -247,8 +247,7 @@ TEST_CASE("triangles of thin walls, small angles and sharp edges cross nowhere, 
 TEST_CASE("triangles of the gallery cross nowhere") {
     for (const std::filesystem::path& file : gallery_of_the_library()) {
         const std::string name = file.stem().string();
-        if (!long_tests() && name != "hourglass" && name != "pearls" && name != "reinforced_pipe")
-            continue;
+        if (!long_tests() && name != "hourglass" && name != "pearls" && name != "reinforced_pipe") continue;
         CAPTURE(name);
         const Phased object = read_tree(Document::from_file(file)).object;
         const auto tracer = tracer_of(object);

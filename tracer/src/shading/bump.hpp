@@ -6,8 +6,8 @@
 // them. Details much smaller than the height are lost. A mesh is bumped towards the side from which it is seen.
 //
 // The normal may send light into the surface, or refract it back to where it came from. A path then meets the surface
-// again at its next step and is scattered again, so no energy is lost. Its phase is that of the side on which it starts,
-// so no light leaks through glass.
+// again at its next step and is scattered again, so no energy is lost. Its phase is that of the side on which it
+// starts, so no light leaks through glass.
 //
 // Reference: Blinn, Simulation of Wrinkled Surfaces, SIGGRAPH 1978.
 #pragma once
