@@ -146,7 +146,8 @@ class SliceDrawing {
 
     int run() {
         const InterruptGuard guard;
-        bounds_ = box_of(tree_.object, traceable_.bounds);
+        // Pixels stand for places in the box that `info` prints.
+        bounds_ = chosen_.is_svg() ? box_of(tree_.object, traceable_.bounds) : traceable_.bounds;
         const std::vector<SlicePlane> planes = planes_to_cut(chosen_, bounds_);
         const std::vector<std::string> files = files_of(planes.size());
         check_no_input(files);
@@ -229,7 +230,7 @@ class SliceDrawing {
     SceneTree tree_;
     Program program_;
     TraceableObject traceable_;
-    Bounds bounds_;  // the object's own
+    Bounds bounds_;  // what the pictures show: the object's own box, or that of the tree
     SliceFrame frame_;
     std::size_t written_ = 0;
 };
