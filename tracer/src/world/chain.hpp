@@ -86,8 +86,8 @@ inline Ray continued(const Surface& surface, const Frame& frame, const BsdfSampl
 }
 
 /// Whether a ray that has left a surface moves away from it, on the side where it starts. Bumps may send a ray towards
-/// the surface that it has just left. A path then meets the surface again; shadow rays and photons end there, so only
-/// directions sampled by paths find such light.
+/// the surface that it has just left. A path then meets the surface again; shadow rays and photons end there, so that
+/// directions sampled by paths find such light alone.
 inline bool moves_away(const Surface& surface, const glm::vec3& direction, bool transmitted) {
     // Without a bump, only rounding could contradict the sample.
     return surface.normal == surface.geometric_normal ||
