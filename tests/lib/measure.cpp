@@ -353,8 +353,8 @@ TEST_CASE("measuring ends when what is known is enough") {
 
 TEST_CASE("only the phases that must be precise are divided finely") {
     const Phased object =
-        Over{.of = {Set{.phase = first, .of = Sphere{.radius = 1}},
-                    Set{.phase = second, .of = warped(Translate{.by = {5, 0, 0}}, Sphere{.radius = 1})}}};
+        Under{.of = {Set{.phase = first, .of = Sphere{.radius = 1}},
+                     Set{.phase = second, .of = warped(Translate{.by = {5, 0, 0}}, Sphere{.radius = 1})}}};
     MeasureOptions options = to(1e-3);
     const MeasureResult both = measure(object, options);
     options.precise_phases = PhaseSet::of(second);

@@ -237,8 +237,9 @@ TEST_CASE("triangles of thin walls, small angles and sharp edges cross nowhere, 
     const Phased wall = ThinShell{.of = box, .shell = one, .inside = two, .half_thickness = 0.02f};
     const Phased far = Set{.phase = one, .of = warped(Translate{{10'000, 7000, -3000}}, box)};
     // The last spacing is the smallest that coordinates allow there.
-    for (const auto& [object, spacing] :
+    for (const auto& [object, number] :
          {std::pair(lens, 0.05f), {wall, 0.1f}, {wall, 0.05f}, {far, 0.1f}, {far, 0.0192f}}) {
+        const float spacing = number;  // Clang 14 captures no structured bindings in lambdas
         CAPTURE(spacing);
         check(meshed(InterfaceTracer(object), spacing));
     }

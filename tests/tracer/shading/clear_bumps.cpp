@@ -100,10 +100,11 @@ TEST_CASE("bumps on glass neither take nor give light: furnaces at all angles") 
                                  "contrast": 1}}, "bump_height": 0.1)";
     const double significance = sidak(1e-4, 12);
     // Rough glass is noisy.
-    for (const auto& [more, factor] :
+    for (const auto& [parameters, factor] :
          {std::pair("", 1.02), {R"("roughness": 0.1, )", 1.05}, {R"("film_thickness": 300, )", 1.02}}) {
+        const std::string more = parameters;
         CAPTURE(more);
-        Scene scene = scene_of(R"("a": {"clear": {"ior": 1.5, )" + std::string(more) + speckle + "}}",
+        Scene scene = scene_of(R"("a": {"clear": {"ior": 1.5, )" + more + speckle + "}}",
                                R"({"set": {"phase": "a", "of": {"sphere": {"radius": 1}}}})");
         scene.settings.max_depth = 1000;
         const World world(scene);
